@@ -20,7 +20,7 @@ inline bool overlap(const Box& a, const Box& b) {
            (b.low.y <= a.high.y) & (b.low.z <= a.high.z);
 }
 
-/// What two boxes have in common.
+/// The common part of two boxes.
 inline Box common(const Box& a, const Box& b) { return {max(a.low, b.low), min(a.high, b.high)}; }
 
 /// Whether no point of `inner` is outside of `outer`.
@@ -30,13 +30,13 @@ inline bool is_within(const Box& inner, const Box& outer) {
     return true;
 }
 
-/// Without branches, which would be mispredicted.
+/// No branches: they would be mispredicted.
 inline bool is_within(Vec3 p, const Box& box) {
     return (p.x >= box.low.x) & (p.x <= box.high.x) & (p.y >= box.low.y) & (p.y <= box.high.y) & (p.z >= box.low.z) &
            (p.z <= box.high.z);
 }
 
-/// From a point to the nearest one of the box; infinite for an empty box.
+/// Distance from a point to the nearest one of the box; infinite for an empty box.
 inline double squared_distance(const Box& box, Vec3 p) {
     const Vec3 outside = max(max(box.low - p, p - box.high), {});
     return length2(outside);

@@ -69,7 +69,7 @@ bool meet_beyond_vertex(Vec3 p, Vec3 a, Vec3 b, Vec3 x, Vec3 y) {
 }
 
 bool meet_beyond_edge(Vec3 p, Vec3 q, Vec3 a, Vec3 x) {
-    if (is_ahead(cross(q - p, a - p), cross(x - p, q - p))) return false;  // on opposite sides of the edge
+    if (is_ahead(cross(q - p, a - p), cross(x - p, q - p))) return false;  // a and x lie on opposite sides of the edge
     if (orientation(p, q, a, x) != 0) return false;
     return CGAL::coplanar_orientation(point(p), point(q), point(a), point(x)) == CGAL::POSITIVE;
 }

@@ -79,8 +79,8 @@ private:
     static constexpr std::uint64_t kPieceItems = 1 << 14;
 
     struct Run {
-        std::uint64_t begin, end;  // in the file
-        std::uint64_t place = 0;   // of the next item to read
+        std::uint64_t begin, end;  // range of items in the file
+        std::uint64_t place = 0;   // index of the next item to read
         std::vector<Item> piece = {};
         std::size_t at = 0;
         std::uint64_t piece_items = 0;

@@ -22,7 +22,7 @@ using Mask4 = decltype(Float4{} < Float4{});
 using Lane4 = std::int32_t __attribute__((vector_size(16)));
 using Unsigned4 = std::uint32_t __attribute__((vector_size(16)));
 
-/// From any address.
+/// Loads from any address.
 template <class Lanes>
 Lanes load(const void* from) {
     Lanes lanes;

@@ -5,7 +5,7 @@
 
 namespace regionmesh {
 
-/// From `least` to `most`, both included. `text` says so in messages: "0 to 1".
+/// The range from `least` to `most`, both included. `text` says so in messages: "0 to 1".
 struct OptionRange {
     double least, most;
     const char* text;

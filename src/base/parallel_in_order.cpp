@@ -27,7 +27,7 @@ void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32
     // own.
     std::uint32_t next = 0;
     TaskOrder begun, finished, ended;
-    std::vector<TaskOrder> places(in_flight);  // of an item: its work, then its end, then the next item there
+    std::vector<TaskOrder> places(in_flight);  // order of each slot: the work of an item, its end, the next item
     begun.happened();
     const auto begin = tbb::make_filter<void, std::uint32_t>(tbb::filter_mode::serial_in_order,
                                                              [&](tbb::flow_control& control) -> std::uint32_t {

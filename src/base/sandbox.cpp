@@ -56,7 +56,7 @@ public:
     Ruleset(const Ruleset&) = delete;
     Ruleset& operator=(const Ruleset&) = delete;
 
-    /// What does not exist needs no right.
+    /// A path that does not exist needs no right.
     void allow(const char* path, std::uint64_t rights) const {
         const int at = ::open(path, O_PATH | O_CLOEXEC);
         if (at < 0) return;
@@ -103,7 +103,7 @@ bool confine_files(const SandboxRules& rules) {
 }
 
 #if defined(__x86_64__)
-constexpr std::uint32_t kMachine = AUDIT_ARCH_X86_64, kForeignCall = 0x40000000;  // of the x32 interface
+constexpr std::uint32_t kMachine = AUDIT_ARCH_X86_64, kForeignCall = 0x40000000;  // flag of the x32 interface
 #elif defined(__aarch64__)
 constexpr std::uint32_t kMachine = AUDIT_ARCH_AARCH64, kForeignCall = 0xFFFFFFFF;
 #else
@@ -113,7 +113,7 @@ constexpr std::uint32_t kMachine = 0, kForeignCall = 0;
 // socketpair() stays: the helper programs are spoken to over one. io_uring makes sockets without socket().
 constexpr std::array kRefused {
     SYS_socket, SYS_connect, SYS_bind, SYS_listen, SYS_io_uring_setup, SYS_io_uring_enter,
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which look into their own process with it
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // sanitizers look into their own process with it
         SYS_ptrace,
 #endif
         SYS_bpf, SYS_process_vm_readv, SYS_process_vm_writev, SYS_pidfd_getfd, SYS_perf_event_open, SYS_userfaultfd,
@@ -135,7 +135,7 @@ public:
         add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, 1);
         refuse();
     }
-    /// In all threads.
+    /// Applies to all threads.
     bool enter() {
         const sock_fprog program{static_cast<unsigned short>(count_), steps_.data()};
         return ::syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_TSYNC, &program) == 0;

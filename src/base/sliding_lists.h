@@ -38,7 +38,7 @@ public:
 private:
     SlidingArray<std::uint32_t> start_;  // counted from the first item ever, modulo 2^32
     FlatArray<std::uint32_t> items_;
-    std::uint32_t base_ = 0;  // of items_[0]
+    std::uint32_t base_ = 0;  // index of items_[0]
 };
 
 }  // namespace regionmesh

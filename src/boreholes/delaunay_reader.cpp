@@ -22,7 +22,7 @@ struct Header {
     std::uint64_t count;
 };
 
-/// For the exit codes that report degenerate points.
+/// Messages for the exit codes that report degenerate points.
 const char* place_of_all(int exit_code) {
     switch (exit_code) {
         case 3:

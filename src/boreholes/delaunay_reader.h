@@ -36,9 +36,9 @@ private:
     /// Reports why the output of the program ended early.
     [[noreturn]] void refuse_ending();
 
-    PointTable table_;  // without points after take_points()
+    PointTable table_;  // has no points after take_points()
     std::filesystem::path path_;
-    std::optional<PipedProgram> program_;  // from take_points() to the last tetrahedron
+    std::optional<PipedProgram> program_;  // runs from take_points() to the last tetrahedron
     std::size_t point_count_ = 0;
     std::optional<std::uint64_t> left_;  // tetrahedra; unknown before the header
     std::vector<Corners> piece_;

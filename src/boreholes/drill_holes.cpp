@@ -18,7 +18,7 @@
 namespace regionmesh::formats {
 namespace {
 
-constexpr double kMostOverlap = 0.05;  // of the longer interval
+constexpr double kMostOverlap = 0.05;  // share of the longer interval
 
 /// Overlapping intervals of one label, merged.
 struct Run {

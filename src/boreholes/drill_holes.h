@@ -19,11 +19,11 @@ struct Interval {
     double bottom_x = 0, bottom_y = 0, bottom = 0;  // the lower end
     double collar = 0;                              // elevation of the top of the hole, as far as this row says
     double from = 0;            // grows down the hole: a depth, or an elevation with its sign changed
-    double length = 0;          // of the numbers in the table; elevations may be rounded again
+    double length = 0;          // length of the interval in the table; elevations may be rounded again
     Vec3 upper{}, lower{};      // directions down the hole at both ends, of unit length; zero without a path
     bool is_at_collar = false;  // it begins where the hole begins
-    std::uint32_t label = 0;    // of TableLabels, or kNoLabel
-    std::uint32_t hole = 0;     // of DrillHoles::holes
+    std::uint32_t label = 0;    // index in TableLabels, or kNoLabel
+    std::uint32_t hole = 0;     // index in DrillHoles::holes
     std::uint32_t row = 0;
 };
 

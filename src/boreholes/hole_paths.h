@@ -1,4 +1,4 @@
-// Where inclined holes run: collars and surveys.
+// Paths of inclined holes: collars and surveys.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace regionmesh::formats {
 /// The direction of a hole at a depth along it.
 struct Station {
     double depth = 0;
-    Vec3 direction{0, 0, -1};  // of unit length, down the hole
+    Vec3 direction{0, 0, -1};  // unit vector down the hole
 };
 
 /// The course of one hole: by the method of minimum curvature, an arc of a circle between two stations to which the
@@ -27,13 +27,13 @@ public:
     HolePath(Vec3 collar, std::vector<Station> stations);
 
     Vec3 at(double depth) const;
-    /// Of unit length, down the hole.
+    /// Unit vector down the hole.
     Vec3 direction_at(double depth) const;
     const std::vector<Station>& stations() const { return stations_; }
 
 private:
     std::vector<Station> stations_;
-    std::vector<Vec3> places_;  // of the stations
+    std::vector<Vec3> places_;  // positions of the stations
 };
 
 /// The paths of holes by name.

@@ -11,10 +11,10 @@
 namespace regionmesh::formats {
 namespace {
 
-constexpr double kNear = 0.01;  // of the distance to a neighbour
+constexpr double kNear = 0.01;  // share of the distance to a neighbour
 constexpr std::size_t kNeighbour = 3;
-constexpr std::size_t kLeastProducts = 1 << 16;  // of one task
-constexpr double kLeastPivot = 1e-13;            // of the largest diagonal entry; smaller ones are rounding errors
+constexpr std::size_t kLeastProducts = 1 << 16;  // products of one task
+constexpr double kLeastPivot = 1e-13;  // share of the largest diagonal entry; smaller ones are rounding errors
 
 /// -r^1.5: conditionally positive definite, so that weights with the sum 0 make a positive definite matrix.
 double covariance(double dx, double dy) {

@@ -36,7 +36,7 @@ private:
     void solve(std::uint32_t threads);
 
     std::vector<HeightSample> samples_;
-    std::vector<double> weights_;  // of samples_; their sum is 0
+    std::vector<double> weights_;  // one per item of samples_; their sum is 0
     double constant_ = 0;
 };
 

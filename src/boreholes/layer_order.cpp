@@ -18,8 +18,8 @@ namespace regionmesh::formats {
 namespace {
 
 constexpr std::uint32_t kNoUnit = std::numeric_limits<std::uint32_t>::max();
-constexpr double kLeastOrder = 0.5;  // of the logged length
-constexpr double kMostGap = 0.01;    // of the shorter interval beside it: a boundary recorded twice
+constexpr double kLeastOrder = 0.5;  // share of the logged length
+constexpr double kMostGap = 0.01;    // share of the shorter interval beside it: a boundary recorded twice
 
 /// The intervals of one hole, from its top down.
 using Hole = std::vector<const Interval*>;
@@ -115,7 +115,7 @@ public:
     WantedUnits(const DrillHoles& table, const TableLabels& labels) : path_(table.path), labels_(labels) {
         for (const Interval& interval : table.intervals)
             if (interval.label != kNoLabel) used_.push_back(interval.label);
-        // In byte order of their texts, so that the order of rows decides nothing.
+        // Units in byte order of their texts, so that the order of rows decides nothing.
         std::sort(used_.begin(), used_.end(),
                   [&](std::uint32_t a, std::uint32_t b) { return labels.text(a) < labels.text(b); });
         used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
@@ -199,7 +199,7 @@ private:
     const std::filesystem::path& path_;
     const TableLabels& labels_;
     std::vector<std::uint32_t> used_;
-    std::ptrdiff_t most_commas_ = 0;  // in the text of a unit
+    std::ptrdiff_t most_commas_ = 0;  // most commas in the text of a unit
 };
 
 /// Finds the bases in one hole.

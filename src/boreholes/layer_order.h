@@ -14,7 +14,7 @@ namespace regionmesh::formats {
 /// Most units of one table.
 inline constexpr std::size_t kMostUnits = 250;
 
-/// What a hole says about the base of a unit at a place.
+/// The statement of a hole about the base of a unit at its position.
 enum class ContactKind {
     kAt,       // the base is here
     kGround,   // the unit is missing at the top of the hole: its base is the ground
@@ -29,9 +29,9 @@ struct Contact {
 
 struct LayerOrder {
     std::vector<std::uint32_t> units;            // numbers of TableLabels, from young to old
-    std::vector<std::vector<Contact>> contacts;  // with the base of each unit but the oldest; one or two for each hole
+    std::vector<std::vector<Contact>> contacts;  // one list per unit but the oldest; one or two of each hole
     double ordered_share =
-        1;  // of the logged length: what lies in its unit when every hole has each unit once, in order
+        1;  // share of the logged length that lies in its unit when every hole has each unit once, in order
 };
 
 /// `wanted` lists units from young to old, "auto" for all others in the order found in the holes, and "-UNIT" for units

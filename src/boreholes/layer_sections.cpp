@@ -20,11 +20,11 @@ namespace regionmesh::formats {
 namespace {
 
 constexpr double kGoodOrder = 0.9;  // share of the logged length; below it is worth a warning
-constexpr double kColumnsOfSide = 100, kSamplesOfHeight = 200;  // without a spacing
+constexpr double kColumnsOfSide = 100, kSamplesOfHeight = 200;  // numbers of samples where no spacing is given
 constexpr double kMostHeightBytes = 4e9, kMostSamplesOfAxis = 1e6, kMostNumber = 1e18;
 constexpr double kSolve = 1.0 / 64;  // time to solve for the weights, in evaluations per cube of the holes
-constexpr double kMargin = 0.5;      // of the mean distance from a hole to the next
-constexpr double kRounding = 1e-9;   // of a number of steps
+constexpr double kMargin = 0.5;      // share of the mean distance from a hole to the next
+constexpr double kRounding = 1e-9;   // share of a number of steps
 
 class LayerSections final : public SectionReader {
 public:
@@ -57,7 +57,7 @@ private:
 
     VolumeInfo info_;
     LayerSurfaces surfaces_;
-    std::vector<InputLabel> labels_;  // of the air, then of the units from young to old
+    std::vector<InputLabel> labels_;  // labels of the air, then of the units from young to old
     std::uint32_t section_ = 0;
 };
 
@@ -213,7 +213,7 @@ std::unique_ptr<SectionReader> open_layer_sections(const std::filesystem::path& 
                     .metres = table.metres,
                     .warning = table.warning};
     const LatticeFinder lattices(table, layers);
-    const Lattice lattice = lattices.find();  // whose columns stay
+    const Lattice lattice = lattices.find();  // the columns of this lattice stay
     info.held_bytes = require_columns(table, lattice, order.units.size(), layers);
     std::optional<Terrain> terrain;
     if (!layers.terrain.empty()) terrain.emplace(layers.terrain, layers.memory - info.held_bytes);

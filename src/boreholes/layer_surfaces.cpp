@@ -9,7 +9,7 @@
 namespace regionmesh::formats {
 namespace {
 
-constexpr int kMostRounds = 8;  // of taking in bounds that are not kept
+constexpr int kMostRounds = 8;  // rounds that add bounds which the surface violates
 
 bool is_known(const Contact& contact) {
     return contact.kind == ContactKind::kAt || contact.kind == ContactKind::kGround;
@@ -19,7 +19,7 @@ bool are_near(const HeightSample& a, const HeightSample& b, double near) {
     return std::hypot(a.x - b.x, a.y - b.y) <= near;
 }
 
-/// Of the bounds at one place, the tightest of each kind; none where a sample has the height. Kriging takes the mean of
+/// The tightest bound of each kind at one position; none where a sample has the height. Kriging takes the mean of
 /// samples at one place: a mean with a bound would satisfy neither.
 std::vector<Contact> tightest(const std::vector<Contact>& bounds, const std::vector<HeightSample>& samples,
                               double near) {

@@ -68,7 +68,7 @@ private:
                   first_elevation_ = 0;  // first rows in which top and bottom are depths, or elevations
     PointTable table_;
     bool may_lack_labels_ = false;
-    // Of elevations beside a surface: whether any top is the surface, or 0 below one that is not.
+    // Elevations beside a surface: whether any top is the surface, or 0 below one that is not.
     bool has_top_at_surface_ = false, has_top_at_zero_ = false;
 };
 
@@ -231,7 +231,7 @@ std::uint32_t PointTableReader::add_label(std::uint32_t row) {
     return labels_.add(words(Role::kLabel), columns_.has(Role::kName) ? text(Role::kName) : std::string_view(), row);
 }
 
-/// For layers an interval without a label is one that was not logged.
+/// Layers: an interval without a label is one that was not logged.
 std::uint32_t PointTableReader::label_of_interval(std::uint32_t row) {
     return may_lack_labels_ && text(Role::kLabel).empty() ? kNoLabel : add_label(row);
 }

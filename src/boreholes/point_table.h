@@ -13,7 +13,7 @@ namespace regionmesh::formats {
 struct PointTable {
     TetrahedraInfo info;
     LabelledPoints points;
-    std::vector<std::uint32_t> rows;  // of each point; the header is row 1
+    std::vector<std::uint32_t> rows;  // one per point; the header is row 1
 };
 
 /// Reads a table of points, or the points that represent the intervals of drill holes. Throws Error(kInput) that names

@@ -130,7 +130,7 @@ bool ColumnFinder::has_title(Titles titles) const {
     return false;
 }
 
-/// In a table of intervals a column `elevation` is that of the surface, unless --columns says otherwise.
+/// A column of a table of intervals called `elevation` is that of the surface, unless --columns says otherwise.
 void ColumnFinder::choose_kind() {
     const bool has_interval = found_.has(Role::kTop) || found_.has(Role::kBottom) || found_.has(Role::kSurface);
     if (found_.has(Role::kZ) && has_interval)

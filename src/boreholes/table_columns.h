@@ -18,9 +18,9 @@ inline constexpr std::array kRoleNames{"x", "y", "z", "label", "name", "top", "b
 
 /// A table has x, y, label, and either z or both top and bottom; the others are optional.
 struct TableColumns {
-    std::array<std::optional<std::size_t>, kRoleNames.size()> places;  // from 0
-    std::vector<std::string> titles;                                   // for messages: 'x', 5
-    std::size_t least_fields = 0;                                      // that a row must have
+    std::array<std::optional<std::size_t>, kRoleNames.size()> places;  // column of each role, counted from 0
+    std::vector<std::string> titles;                                   // names of columns in messages: 'x', 5
+    std::size_t least_fields = 0;                                      // least number of fields that a row must have
     bool has_header = true;
     bool leaves_intervals = false;  // a table of points that has a top and a bottom, too
 

@@ -97,7 +97,7 @@ std::vector<InputLabel> TableLabels::labels(TetrahedraInfo& info) const {
     return labels;
 }
 
-/// Of labels that are words: empty where none is a number.
+/// A warning about labels that are words: empty where none is a number.
 std::string TableLabels::warning_of_numbers() const {
     std::optional<std::uint32_t> number, word;
     for (std::uint32_t i = 0; i < texts_.size() && !(number && word); ++i) {

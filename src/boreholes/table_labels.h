@@ -34,7 +34,7 @@ private:
         std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>()(text); }
     };
     std::unordered_map<std::string, std::uint32_t, Hash, std::equal_to<>> numbers_;
-    std::vector<const std::string*> texts_;  // in numbers_
+    std::vector<const std::string*> texts_;  // keys of numbers_
     std::uint32_t last_ = 0;
 };
 
@@ -69,7 +69,7 @@ private:
 
     std::filesystem::path path_;
     TextTable texts_;
-    std::vector<Name> names_;  // by index; empty until the first name
+    std::vector<Name> names_;  // one per label index; empty until the first name
 };
 
 }  // namespace regionmesh::formats

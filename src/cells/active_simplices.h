@@ -22,7 +22,7 @@ class ActiveSimplices {
 public:
     struct Simplex {
         SimplexKey corners;
-        std::uint32_t next;  // with the same lowest corner, or of the free places
+        std::uint32_t next;  // next item with the same lowest corner, or next free item
         Note note;
     };
 
@@ -128,7 +128,7 @@ private:
     std::vector<Simplex> simplices_;
     std::uint32_t free_ = kNone;
     std::uint32_t used_ = 0;
-    SlidingArray<std::uint32_t> heads_;  // by rank
+    SlidingArray<std::uint32_t> heads_;  // one per rank
 };
 
 }  // namespace regionmesh

@@ -34,7 +34,7 @@ inline constexpr std::array<NodeSet, kCellSimplexCount> kCellSimplices = [] {
 
 inline constexpr NodeSet kMainDiagonal = 0b10000001;
 
-/// Where to find a simplex in kCellSimplices.
+/// Index of a simplex in kCellSimplices.
 constexpr int place_in_cell(NodeSet simplex) {
     return static_cast<int>(std::find(kCellSimplices.begin(), kCellSimplices.end(), simplex) - kCellSimplices.begin());
 }
@@ -64,7 +64,7 @@ constexpr int number_of(const Partition& partition) {
 /// A map of the cell onto itself that maps its simplices to simplices: axes are exchanged, or all are turned round,
 /// too.
 struct CellSymmetry {
-    std::array<std::uint8_t, 8> node{};  // where each node goes
+    std::array<std::uint8_t, 8> node{};  // image of each node
     bool mirrors = false;
 
     constexpr NodeSet operator()(NodeSet set) const {

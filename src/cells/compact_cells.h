@@ -42,7 +42,7 @@ public:
     struct Counts {
         int faces, labels;
     };
-    /// Of a cell with these labels.
+    /// The faces of a cell with these labels.
     Counts counts(const std::array<Label, 8>& labels) const {
         const Entry& entry = class_of(labels);
         return {entry.face_count, entry.label_count};
@@ -89,8 +89,8 @@ private:
     }
 
     std::vector<CompactFace> faces_;
-    std::vector<Entry> entries_;              // by number_of()
-    std::array<Entry, 128> two_labels_ = {};  // by the set of the nodes 1 to 7 that differ from node 0
+    std::vector<Entry> entries_;              // index: number_of()
+    std::array<Entry, 128> two_labels_ = {};  // index: set of the nodes 1 to 7 that differ from node 0
     std::array<Image, 12> images_;
 };
 

@@ -22,8 +22,8 @@ std::uint64_t faces_of(unsigned pattern) {
     }
 }
 
-/// What a node adds to the Euler characteristic of its region, 2 (N0 - N1 + N2 - N3) of the simplices with this base
-/// node and one label: by the set of steps to nodes of that label, step n as bit n - 1.
+/// Contribution of a node to the Euler characteristic of its region, 2 (N0 - N1 + N2 - N3) of the simplices with this
+/// base node and one label: by the set of steps to nodes of that label, step n as bit n - 1.
 constexpr std::array<std::int8_t, 128> make_euler_shares() {
     std::array<std::int8_t, 128> shares{};
     for (unsigned set = 0; set < 128; ++set)

@@ -18,7 +18,7 @@ namespace regionmesh {
 /// visited. Faces are counted by case, without making them.
 class LabelCensus {
 public:
-    /// Of a part of a volume (StripOptions::first) only faces are counted rightly.
+    /// A part of a volume (StripOptions::first): only faces are counted rightly.
     LabelCensus(const Lattice& lattice, Sweep sweep, StripOptions options);
 
     /// Counts the strip between two consecutive sections; `is_last` when `high` is the last section.
@@ -43,8 +43,8 @@ private:
 
     std::uint32_t width_, height_;
     StripOptions options_;
-    unsigned sides_ = 0;  // those that are sides of the whole volume, a bit for each: axes of the sweep, low and high
-    MixedCells mixed_;    // of a row of cells
+    unsigned sides_ = 0;  // bits of sides of the whole volume: axes of the sweep, low and high
+    MixedCells mixed_;    // mixed cells of a row
     bool is_first_ = true;
     std::uint64_t faces_ = 0;
     std::uint64_t quadruple_points_ = 0;

@@ -24,7 +24,7 @@ struct CaseFace {
 /// The patch between two labels: a triangle, or a quad that is not cut yet. `turns`: its normal points from second to
 /// first in a tetrahedron with the orientation of the first of Kuhn's (orientation() > 0).
 struct CasePatch {
-    std::array<CornerSet, 4> vertices;  // in cyclic order
+    std::array<CornerSet, 4> vertices;  // corners in cyclic order
     std::uint8_t vertex_count;          // 3 or 4
     std::uint8_t first, second;
     bool turns;
@@ -33,7 +33,7 @@ struct CasePatch {
     int cut(int start, bool turn, std::array<CaseFace, 2>& faces) const;
 };
 
-/// Which diagonal cuts a quad.
+/// The diagonal that cuts a quad.
 enum class QuadCuts {
     kBestQuality,  // the better worst quality at unit spacing
     kCones,  // all faces of a tetrahedron or triangle share one vertex: they stay embedded wherever vertices go in
@@ -43,7 +43,7 @@ enum class QuadCuts {
 /// The vertex of a quad, 0 or 1, whose diagonal gives the higher minimum quality; 0 in a draw.
 int better_cut(const std::array<Vec3, 4>& quad);
 
-/// Which corners share a label: bit e set when the two corners of pair e differ. Pairs 01 02 03 12 13 23.
+/// Corners that share a label: bit e is set when the two corners of pair e differ. Pairs 01 02 03 12 13 23.
 inline unsigned tetrahedron_pattern(Label a, Label b, Label c, Label d) {
     return unsigned(a != b) | unsigned(a != c) << 1 | unsigned(a != d) << 2 | unsigned(b != c) << 3 |
            unsigned(b != d) << 4 | unsigned(c != d) << 5;

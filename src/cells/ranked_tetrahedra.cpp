@@ -65,7 +65,7 @@ void require_memory(const TetrahedronReader& reader, std::uint64_t points, doubl
                                        " points; raise --memory to that");
 }
 
-/// By position along the sweep, then by the other coordinates.
+/// Order by position along the sweep, then by the other coordinates.
 struct SweepOrder {
     Sweep sweep;
     std::weak_ordering operator()(const Vec3& p, const Vec3& q) const {

@@ -31,8 +31,8 @@ struct RankedPoints {
     std::vector<Vec3> positions;
     std::vector<Label> labels;                        // dense; empty where the tetrahedra have labels
     std::vector<std::uint32_t> points;                // the reader's numbers; of points at one position the first
-    std::unordered_map<std::uint32_t, Other> others;  // by rank: a point at that position with another label
-    Box box;                                          // round the points that tetrahedra use
+    std::unordered_map<std::uint32_t, Other> others;  // key: rank; a point at that position with another label
+    Box box;                                          // box of the points that tetrahedra use
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(positions.size()); }
     double along(std::uint32_t rank) const { return positions[rank][sweep.axes[2]]; }
@@ -58,7 +58,7 @@ struct RankedTetrahedra {
 
 struct RankOptions {
     std::optional<Sweep> sweep = {};                     // default: along the longest side of the box round all points
-    std::uint64_t sort_bytes = std::uint64_t{64} << 20;  // in addition to the points
+    std::uint64_t sort_bytes = std::uint64_t{64} << 20;  // bytes for sorting, in addition to the points
     std::uint64_t memory = kDefaultMemory;               // bytes that points may take
 };
 

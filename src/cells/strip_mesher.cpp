@@ -86,7 +86,7 @@ void StripMesher::plan_triangles() {
         for (int first = 0; first < 3; ++first) {
             if (first == axis) continue;
             const int second = 3 - axis - first;
-            // From the corner of the cell's square, along one axis of the side, then along both.
+            // Steps from the corner of the cell's square, along one axis of the side, then along both.
             const Step base = is_high ? across : 0;
             std::array<Step, 3> increasing{base, base | 1 << first, base | 1 << first | 1 << second};
             TrianglePlan plan{.corners = increasing, .simplices = {}, .cases = {}};
@@ -213,7 +213,7 @@ void StripMesher::cap_side(std::uint32_t i, std::uint32_t j, int side) {
         cap_triangles(labels, i, j, side, outside);
 }
 
-/// Where the diagonal has no vertex.
+/// Squares whose diagonal has no vertex.
 void StripMesher::cap_square(const std::array<Label, 8>& labels, std::uint32_t i, std::uint32_t j, int side,
                              Label outside) {
     const SquarePlan& plan = squares_[side];

@@ -20,8 +20,8 @@ struct StripOptions {
     bool cap = true;                     // split the lattice triangles on the six sides of the box into faces
     std::vector<Label> background = {};  // dense labels whose faces with the exterior are not made
     CellKind cells = CellKind::kTetrahedra;
-    QuadCuts cuts = QuadCuts::kBestQuality;  // of tetrahedra and of their triangles on the box
-    // Of a part of a larger lattice: the index of its first sample and the samples of the whole, along x, y, z. 0: the
+    QuadCuts cuts = QuadCuts::kBestQuality;  // cuts of quads in tetrahedra and in their triangles on the box
+    // A part of a larger lattice: the index of its first sample and the samples of the whole, along x, y, z. 0: the
     // part ends where the whole does. Vertices and caps are those that the whole has there.
     std::array<std::uint32_t, 3> first{0, 0, 0}, whole{0, 0, 0};
 
@@ -49,7 +49,7 @@ public:
     void mesh(std::span<const Label> low, std::span<const Label> high, Chunk& chunk);
 
     std::size_t bytes() const;
-    /// Of a section: two planes of vertex numbers.
+    /// A section: two planes of vertex numbers.
     static constexpr std::uint64_t kBytesPerSample = 2 * kPlaneSlots * sizeof(std::uint32_t);
 
 private:
@@ -63,18 +63,18 @@ private:
     };
     struct TetrahedronPlan {
         std::array<Step, 4> corners;
-        std::array<SimplexPlace, 16> simplices;  // by CornerSet
+        std::array<SimplexPlace, 16> simplices;  // index: CornerSet
         TetrahedronCases cases;
     };
     struct TrianglePlan {
-        std::array<Step, 3> corners;  // within the cell, turned outward
+        std::array<Step, 3> corners;  // corners within the cell, turned outward
         std::array<SimplexPlace, 8> simplices;
         TriangleCases cases;
     };
 
     struct SquarePlan {
         bool turns;
-        std::array<Step, 4> corners;  // within the cell; the ends of the diagonal are the first and the last
+        std::array<Step, 4> corners;  // corners within the cell; the ends of the diagonal are the first and the last
         std::array<SimplexPlace, 16> simplices;
     };
 
@@ -101,7 +101,7 @@ private:
     std::uint32_t width_, height_, count_;  // samples along the fast axis, the slow axis, the sweep
     std::array<TetrahedronPlan, 6> tetrahedra_;
     std::array<std::vector<TrianglePlan>, 6> triangles_;
-    std::array<SimplexPlace, kCellSimplexCount> simplices_;  // of compact cells
+    std::array<SimplexPlace, kCellSimplexCount> simplices_;  // simplices of compact cells
     std::array<SquarePlan, 6> squares_;
 
     std::uint32_t strip_ = 0;
@@ -110,8 +110,8 @@ private:
     std::vector<std::uint32_t> planes_[2];  // vertex number + 1, 0 for none yet
     std::vector<std::uint32_t> rows_[2];
     std::vector<std::uint32_t> touched_[2];        // places in planes_ that are not 0
-    MixedCells mixed_;                             // of a row of cells
-    const CompactCells* compact_cells_ = nullptr;  // for CellKind::kCompact
+    MixedCells mixed_;                             // mixed cells of a row
+    const CompactCells* compact_cells_ = nullptr;  // nullptr unless CellKind::kCompact
 };
 
 }  // namespace regionmesh

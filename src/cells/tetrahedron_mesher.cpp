@@ -12,7 +12,7 @@ namespace regionmesh {
 namespace {
 
 constexpr CornerSet kWhole = 0b1111;
-constexpr std::array<std::uint8_t, 16> kSizes{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // of sets of corners
+constexpr std::array<std::uint8_t, 16> kSizes{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // sizes of corner sets
 constexpr std::uint8_t kMostLabels = 4, kManyLabels = 5;  // labels at a vertex of a generic mesh; more than that
 
 /// The corners of a set, as a key.
@@ -154,7 +154,7 @@ void TetrahedronMesher::mesh(const RankedTetrahedron& tetrahedron, const Places&
         euler(label[0]) -= 2;
         return;
     }
-    std::array<std::uint32_t, 16> number{};  // of the vertex + 1, by CornerSet
+    std::array<std::uint32_t, 16> number{};  // number of the vertex + 1; index: CornerSet
     const auto vertex_at = [&](CornerSet set) {
         if (number[set] == 0) number[set] = (set == kWhole ? inner_vertex(tetrahedron) : vertex(places[set])) + 1;
         return number[set] - 1;

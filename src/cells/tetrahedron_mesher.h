@@ -20,7 +20,7 @@ namespace regionmesh {
 struct FinalizedVertex {
     std::uint32_t vertex, last_strip;  // the strip of the last of its faces
     bool is_on_hull;
-    bool is_shared;          // by several strips
+    bool is_shared;          // several strips use it
     bool is_pinned = false;  // may not move or be collapsed
 
     friend bool operator<(const FinalizedVertex& a, const FinalizedVertex& b) { return a.vertex < b.vertex; }
@@ -29,8 +29,8 @@ struct FinalizedVertex {
 /// The surface of one strip. Vertex numbers run through all strips; the first new one is `first_vertex`.
 struct MeshedStrip {
     std::uint32_t first_vertex = 0;
-    std::vector<ChunkVertex> vertices;  // with the sides of the box that all corners lie on
-    std::vector<ChunkFace> faces;  // on the hull, the second label is the exterior of the side of the box, or kHull
+    std::vector<ChunkVertex> vertices;  // vertices with the sides of the box that all corners lie on
+    std::vector<ChunkFace> faces;       // second label on the hull: exterior of the side of the box, or kHull
 };
 
 /// Labels at the points: the five cases of Nielson and Franke, with vertices at centroids of edges, triangles and
@@ -63,21 +63,21 @@ public:
     /// Whether all faces on the hull lie on the sides of the box round the points, and no more than four labels meet
     /// on an edge or corner of it, with those of the sides.
     bool hull_is_box() const { return hull_is_box_; }
-    /// After finalize_all().
+    /// Valid after finalize_all().
     LabelOracle oracle() const { return {euler_, quadruple_points_, pairs_.size()}; }
 
 private:
     struct Note {
         std::uint32_t vertex = kNoRank, last_strip = 0;
-        Label label = 0;          // of the first tetrahedron at a triangle
+        Label label = 0;          // label of the first tetrahedron at a triangle
         std::uint8_t seen = 0;    // tetrahedra at a triangle
-        std::uint8_t labels = 0;  // at a node or edge, in tetrahedra; at most one more than four
+        std::uint8_t labels = 0;  // number of labels of tetrahedra at a node or edge; at most one more than four
         bool is_outward = false;  // a triangle, in the order of ranks, from its first tetrahedron
         bool is_on_hull = false;
-        bool is_shared = false;  // by strips
+        bool is_shared = false;  // several strips use it
     };
     struct Nothing {};
-    using Places = std::array<std::uint32_t, 16>;  // in the table, by CornerSet
+    using Places = std::array<std::uint32_t, 16>;  // indices in the table, one per CornerSet
 
     Places find_simplices(const RankedTetrahedron& tetrahedron);
     void mesh(const RankedTetrahedron& tetrahedron, const Places& places);

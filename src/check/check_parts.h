@@ -16,8 +16,8 @@ namespace regionmesh {
 /// Sums over the faces of all parts.
 struct FaceTotals {
     QualitySum quality;
-    std::vector<RegionReport> regions;        // by dense label
-    std::unordered_set<std::uint64_t> pairs;  // of regions with an interface
+    std::vector<RegionReport> regions;        // one per dense label
+    std::unordered_set<std::uint64_t> pairs;  // pairs of regions with an interface
 };
 
 /// Adds the faces of a part, or of the whole mesh. Volumes are measured from `origin`.
@@ -35,7 +35,7 @@ public:
     /// Requires a mesh with all faces that touch a vertex or a face of the part, and vertices numbered in an order that
     /// is the same in all parts: an edge is counted at its first vertex. Parts come in the order of their numbers.
     void add(const Mesh& mesh, const MeshPart& part);
-    /// After all parts, for finish(): each face in a box that needs() takes has to come in a mesh.
+    /// Second pass, before finish(): each face in a box that needs() takes has to come in a mesh.
     void begin_rays(double reach) { nesting_.begin_rays(reach); }
     bool needs(const Box& box) const { return nesting_.needs(box); }
     void add_rays(const Mesh& mesh) { nesting_.meet(mesh, options_.threads); }

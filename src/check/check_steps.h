@@ -18,10 +18,10 @@ struct PartStars;
 
 /// Sums over all stars.
 struct StarTotals {
-    std::vector<RegionReport> regions;  // by dense label
+    std::vector<RegionReport> regions;  // one per dense label
     std::uint64_t quadruple_points_inside = 0;
     LineTotals lines;
-    std::vector<FacePair> crossings;  // of faces that share a vertex
+    std::vector<FacePair> crossings;  // crossing pairs of faces that share a vertex
 };
 
 /// Faces or vertices per task.

@@ -25,7 +25,7 @@ public:
     const std::array<VertexId, 3>& vertices(FaceId f) const { return mesh_[f].vertices; }
     bool share_vertex(FaceId f, FaceId g) const {
         static_assert(offsetof(Face, vertices) == 0 && sizeof(Face) >= sizeof(Unsigned4));
-        const auto a = load<Unsigned4>(&mesh_[f]), b = load<Unsigned4>(&mesh_[g]);  // in three lanes each
+        const auto a = load<Unsigned4>(&mesh_[f]), b = load<Unsigned4>(&mesh_[g]);  // vertices in three lanes each
         const auto same = (a == b) | (a == __builtin_shufflevector(b, b, 1, 2, 0, 3)) |
                           (a == __builtin_shufflevector(b, b, 2, 0, 1, 3));
         return (bits_of(same) & 7u) != 0;
@@ -78,8 +78,8 @@ public:
 
 private:
     std::span<const LabelledFace> faces_;
-    std::vector<KeyedIndex> corners_;    // by vertex
-    std::vector<std::uint32_t> starts_;  // of each star
+    std::vector<KeyedIndex> corners_;    // corners sorted by vertex
+    std::vector<std::uint32_t> starts_;  // first corner of each star
 };
 
 template <class Faces>

@@ -16,7 +16,7 @@ namespace regionmesh {
 /// left out. `tree` is that of the mesh. The result does not depend on `threads` (parallel_for).
 std::vector<FacePair> find_crossings(const Mesh& mesh, const SortedFaceTree& tree, std::uint32_t threads);
 
-/// Those of faces that share no vertex.
+/// Crossing pairs of faces that share no vertex.
 std::vector<FacePair> find_crossings_apart(const Mesh& mesh, const SortedFaceTree& tree, std::uint32_t threads);
 
 /// The same for a list of faces from any source; results are positions in the list.

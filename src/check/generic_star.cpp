@@ -74,7 +74,7 @@ StarFault GenericStar::look_at_lines(VertexId v, int labels, const StarEdges& ed
     if (labels == 3) return lines == 2 ? StarFault::kNone : StarFault::kLines;
     std::sort(triples_.begin(), triples_.end());
     const bool repeats = std::adjacent_find(triples_.begin(), triples_.end()) != triples_.end();
-    // On the box, three sides meet without a line that has faces; so does a label without faces there.
+    // Corner of the box: three sides meet without a line that has faces; so does a label without faces there.
     const bool is_right = mesh_[v].sides == 0 ? lines == 4 : lines >= 2;
     return is_right && !repeats ? StarFault::kNone : StarFault::kLines;
 }

@@ -26,7 +26,7 @@ struct Part {
     }
 };
 
-/// By the smallest vertex of each part.
+/// Parts in the order of their smallest vertices.
 using Parts = std::map<std::uint32_t, Part>;
 
 class NestingCheck {

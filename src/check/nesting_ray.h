@@ -32,10 +32,10 @@ Label outermost(const NestedVolumes& volumes);
 /// The nearest face on the way of a ray.
 struct NestingHit {
     double distance = HUGE_VAL;
-    Label label = 0;  // of the region in front of the face
+    Label label = 0;  // label of the region in front of the face
 };
 
-/// Where the ray from a point meets a face (Moeller and Trumbore 1997); at distance 0 the point is on the face.
+/// Distance of a point to a face along a ray (Moeller and Trumbore 1997); 0: the point is on the face.
 NestingHit nesting_hit(const Mesh& mesh, FaceId f, Vec3 from);
 
 /// Calls search(Box) for pieces of the way of a ray, each as long as all before it, until one of them holds `nearest`,

@@ -6,7 +6,7 @@ namespace regionmesh {
 
 void PartComponents::add(const Mesh& mesh, const MeshPart& part, UnionFind& sheets,
                          std::vector<RegionReport>& regions) {
-    std::unordered_map<std::uint32_t, std::uint32_t> set_of;  // by root
+    std::unordered_map<std::uint32_t, std::uint32_t> set_of;  // key: root
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
         if (!mesh.is_alive(FaceId{f})) continue;
         const Face& face = mesh[FaceId{f}];

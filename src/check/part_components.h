@@ -19,10 +19,10 @@ public:
     void add(const Mesh& mesh, const MeshPart& part, UnionFind& sheets, std::vector<RegionReport>& regions);
 
 private:
-    SeamSets sets_;  // of sides of faces
+    SeamSets sets_;  // sets of sides of faces
 };
 
-/// What check_stars() needs to know of a part.
+/// The facts about a part that check_stars() needs.
 struct PartStars {
     const MeshPart& part;
     PartComponents& components;

@@ -43,7 +43,7 @@ void PartNesting::add(const Mesh& mesh, const MeshPart& part) {
         joined.join(index(v[0]), index(v[1]));
         joined.join(index(v[0]), index(v[2]));
     });
-    std::map<std::uint32_t, Island> found;  // by root
+    std::map<std::uint32_t, Island> found;  // key: root
     auto last = found.end();                // consecutive vertices are mostly of the same island
     const auto island = [&](std::uint32_t v) -> Island& {
         const std::uint32_t root = joined.find(v);
@@ -64,7 +64,7 @@ void PartNesting::add(const Mesh& mesh, const MeshPart& part) {
         else
             add_volume(own.volumes, mesh, f, origin_);
     });
-    std::unordered_map<std::uint32_t, std::uint32_t> set_of;  // by root
+    std::unordered_map<std::uint32_t, std::uint32_t> set_of;  // key: root
     for_own_corners(mesh, part, [&](FaceId f, const MeshPart::Span& parts) {
         if (parts.first == parts.last) return;
         const auto [at, is_new] = set_of.try_emplace(joined.find(index(mesh[f].vertices[0])));

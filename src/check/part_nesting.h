@@ -20,7 +20,7 @@ public:
 
     /// Requires parts in the order of their numbers.
     void add(const Mesh& mesh, const MeshPart& part);
-    /// After all parts. A ray is `reach` long.
+    /// Call it after all parts. A ray is `reach` long.
     void begin_rays(double reach);
     /// Whether a ray may meet a face in the box.
     bool needs(const Box& box) const;
@@ -30,7 +30,7 @@ public:
     void report(const CheckOptions& options, Findings& findings) const;
 
 private:
-    /// What is known of a separate part of the surface.
+    /// The known facts about a separate part of the surface.
     struct Island {
         Vec3 farthest = {};  // along the ray
         double along = -HUGE_VAL;
@@ -43,7 +43,7 @@ private:
         std::uint32_t vertex, part;
         Label outer;
         NestingHit nearest = {};
-        std::array<Label, 4> at_start{kNoLabel, kNoLabel, kNoLabel, kNoLabel};  // as they are found
+        std::array<Label, 4> at_start{kNoLabel, kNoLabel, kNoLabel, kNoLabel};  // labels as found
     };
     static constexpr Label kNoLabel = ~Label{0};
     static void join(Island& into, Island&& other);
@@ -52,11 +52,11 @@ private:
     static void meet(const Mesh& mesh, FaceId f, Ray& ray);
 
     Vec3 origin_;
-    SeamSets sets_;                         // of faces
-    std::map<std::uint32_t, Island> open_;  // by set; those that reached a seam
+    SeamSets sets_;                         // sets of faces
+    std::map<std::uint32_t, Island> open_;  // key: set; islands that reached a seam
     std::uint64_t count_ = 0;               // islands so far
     double reach_ = 0;
-    std::vector<Ray> rays_;  // of islands that do not touch the box
+    std::vector<Ray> rays_;  // rays of islands that do not touch the box
 };
 
 }  // namespace regionmesh

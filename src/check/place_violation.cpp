@@ -15,7 +15,7 @@ std::string text_of(double value) {
     return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
-/// Of faces: the centroid of the first; of two that cross, the middle of what their boxes have in common.
+/// Faces: the centroid of the first; two that cross: the middle of the common part of their boxes.
 Vec3 place_of(const Mesh& mesh, const Violation& violation) {
     const auto p = mesh.corners(FaceId{violation.faces.front()});
     if (violation.kind != ViolationKind::kCrossingFaces) return p[0] / 3 + p[1] / 3 + p[2] / 3;

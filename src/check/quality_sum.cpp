@@ -39,7 +39,7 @@ private:
     static int cut_of(double place) { return static_cast<int>((1 - place) * (kCuts / 2) + 0.5); }
 
     std::array<int, kCuts> first_;    // the bin of the smallest angles in a cut
-    std::array<double, kCuts> next_;  // where the next bin begins in a cut
+    std::array<double, kCuts> next_;  // start of the next bin in each cut
 };
 
 const AngleBins kAngleBins;

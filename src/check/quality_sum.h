@@ -13,13 +13,13 @@ namespace regionmesh {
 
 /// Measures of two faces, one per lane.
 struct TwoFaces {
-    std::array<Lanes3<Double2>, 3> edges;  // from each corner to the next
+    std::array<Lanes3<Double2>, 3> edges;  // edge from each corner to the next
     Lanes3<Double2> normal;                // twice the area vector
     Double2 twice_area;
     Double2 quality_product;           // QualityTerms::product
     Double2 size2;                     // the longest edge, squared
-    std::array<Double2, 3> cosines{};  // at each corner, times the lengths of both edges
-    std::array<Double2, 3> places{};   // of the angles (see QualitySum::Angle), if twice_area is the sine of each
+    std::array<Double2, 3> cosines{};  // cosine at each corner, times the lengths of both edges
+    std::array<Double2, 3> places{};   // bins of the angles (see QualitySum::Angle), if twice_area is the sine of each
     // Bit n is set if face n is neither thin nor tiny: twice_area then serves as the sine of each angle.
     unsigned fat = 0;
 

@@ -26,7 +26,7 @@ private:
         sums_.push_back({.label = label});
     }
 
-    std::vector<std::uint32_t> places_;  // by label
+    std::vector<std::uint32_t> places_;  // index of the region of each label
     std::vector<RegionReport> sums_;
 };
 

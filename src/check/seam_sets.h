@@ -43,7 +43,7 @@ private:
     }
 
     std::vector<std::uint32_t> up_;
-    std::unordered_map<std::uint64_t, std::uint32_t> sets_;  // by member
+    std::unordered_map<std::uint64_t, std::uint32_t> sets_;  // key: member
 };
 
 }  // namespace regionmesh

@@ -93,7 +93,7 @@ private:
     void look_at_star(VertexId v) {
         pages_.clear();
         labels_ = LabelSet();
-        SideSet sides = mesh_[v].sides & kAnySide;  // that it lies on, or that its faces name
+        SideSet sides = mesh_[v].sides & kAnySide;  // sides of the box that it lies on, or that its faces name
         bool has_exterior = false, is_odd = false, repeats = false;
         mesh_.for_star(v, [&](FaceId f, int place) {
             const Face& face = mesh_[f];
@@ -122,7 +122,7 @@ private:
             if (has_exterior || labels_.size() > 3) look_for_duplicates(v);
             if (has_exterior || labels_.size() > 2)
                 report_form(v, repeats ? generic_.fault(v) : generic_.fault_of_fans(v, met, edges_));
-            // With two or three labels any two faces are in a fan together.
+            // Two or three labels: any two faces are in a fan together.
             if (options_.crossing && (has_exterior || labels_.size() > 3 || !are_fans_simple(v))) look_for_crossings(v);
         } else {
             look_at_any_fans(v);
@@ -172,7 +172,7 @@ private:
         return fan.size() >= 3 && fan.size() <= kMostOrdered && order_fan(fan) && is_closed(fan);
     }
 
-    /// Of the closed fans of all labels.
+    /// Closed fans of all labels.
     bool are_fans_simple(VertexId v) {
         std::size_t start = 0;
         for (const std::size_t end : ends_) {
@@ -267,7 +267,7 @@ private:
             say(ViolationKind::kOrientation, "its two faces pass it in the same direction");
     }
 
-    /// At an edge of a hull that is no box, two parts of the background may end, each between a face and the hull.
+    /// Edges of a hull that is no box: two parts of the background may end, each between a face and the hull.
     bool is_beside_hull(VertexId v, VertexId w, std::span<const Use> sides) const {
         if ((mesh_[v].sides & mesh_[w].sides & 1u << kHull) == 0) return false;
         return std::ranges::none_of(sides, [&](const Use& use) {

@@ -109,9 +109,9 @@ void BoxTree::search(const FloatPoint& p, const float& limit, Visit&& visit) con
     if (names_.empty()) return;
     struct Entry {
         float squared;
-        std::uint32_t level, node;  // of that level
+        std::uint32_t level, node;  // index of the node in its level
     };
-    std::array<Entry, 128> stack;  // at most seven entries of each of eleven levels wait
+    std::array<Entry, 128> stack;  // waiting nodes: at most seven of each of eleven levels
     int top = 0;
     stack[top++] = {0, static_cast<std::uint32_t>(starts_.size()) - 1, 0};
     std::array<NearBox, EightBoxes::kCount> near;

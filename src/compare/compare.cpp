@@ -14,10 +14,10 @@
 namespace regionmesh {
 namespace {
 
-/// By sample of a side: distances to the other side; NaN where it lacks the region, interface or line.
+/// One per sample of a side: distances to the other side; NaN where it lacks the region, interface or line.
 struct Distances {
     std::vector<double> to_all;
-    std::array<std::vector<double>, 2> to_region;  // of the first and the second label of the interface
+    std::array<std::vector<double>, 2> to_region;  // distances to the regions of the interface
     std::vector<double> to_interface, to_line;
 };
 
@@ -33,7 +33,7 @@ double rounding_of(const ModelSide& a, const ModelSide& b) {
     return 1e-14 * largest;
 }
 
-/// What the samples on each interface look for in the other model.
+/// Goals in the other model, for the samples on each interface.
 std::vector<Goals> interface_goals(const ModelSide& from, const ModelSide& to) {
     std::set<Label> regions;
     for (const auto& labels : to.interfaces().labels) regions.insert(labels.begin(), labels.end());
@@ -53,7 +53,7 @@ std::vector<Goals> line_goals(const ModelSide& from, const ModelSide& to) {
     return goals;
 }
 
-/// From one side to the other.
+/// Distances from one side to the other.
 Distances measure(ModelSide& from, ModelSide& to, double rounding, std::uint32_t threads) {
     const auto [face_points, line_points] = from.sample();
     NearestSearch faces(face_points, from.face_samples(), interface_goals(from, to));
@@ -72,7 +72,7 @@ void add_part(std::vector<WeightedDistances>& parts, const std::vector<double>& 
     if (begin < end) parts.push_back({std::span(distances).subspan(begin, end - begin), samples.weight(stratum)});
 }
 
-using Parts = std::array<std::vector<WeightedDistances>, 2>;  // from A, from B
+using Parts = std::array<std::vector<WeightedDistances>, 2>;  // distances from A, from B
 
 /// None where one of the two models has no samples.
 TwoSidedDistance two_sided(const Parts& parts) {
@@ -156,7 +156,7 @@ std::vector<StratumComparison> compare_strata(const std::array<const ModelStrata
     return result;
 }
 
-/// By vertex id, 0 where there is none; nothing for a model that is no mesh in memory.
+/// One per vertex id, 0 where there is none; nothing for a model that is no mesh in memory.
 std::vector<double> distances_of_vertices(const ComparedModel& model, ModelSide& to, double rounding,
                                           std::uint32_t threads) {
     std::vector<double> result;

@@ -6,7 +6,7 @@
 namespace regionmesh {
 namespace {
 
-using Sums = std::map<std::vector<Label>, double>;  // by labels: area or length
+using Sums = std::map<std::vector<Label>, double>;  // key: labels; area or length
 
 void add(const SortedStrata& part, Sums& sums, ModelStrata& model) {
     for (const Stratum& stratum : part.strata) sums[stratum.labels] += part.measure(stratum);

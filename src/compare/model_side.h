@@ -16,11 +16,11 @@ namespace regionmesh {
 struct ModelStrata {
     std::vector<std::vector<Label>> labels;  // common labels, ascending; in ascending order
     std::vector<double> measures;            // area or length of each
-    std::vector<Box> boxes;                  // of the simplices in each part
+    std::vector<Box> boxes;                  // box of the simplices in each part
 
     /// The stratum with these labels, or kNoStratum.
     std::uint32_t find(const std::vector<Label>& of_stratum) const;
-    /// For each stratum of a part, or of another model, the one with the same labels.
+    /// The stratum with the same labels, for each of a part, or of another model, the one with the same labels.
     std::vector<std::uint32_t> numbers_of(const SortedStrata& part) const;
 };
 
@@ -30,11 +30,11 @@ struct SearchedPart {
     std::optional<StrataTree> face_tree, line_tree;
 };
 
-/// What both models are compared by.
+/// Settings of the comparison, the same for both models.
 struct SideOptions {
     std::vector<Label> background;  // common labels
-    bool sides_apart = true;        // as in lines_of()
-    std::uint64_t samples = 0;      // on faces; a tenth of them on lines
+    bool sides_apart = true;        // sides of the box are distinct, as in lines_of()
+    std::uint64_t samples = 0;      // number on faces; a tenth of it on lines
     std::uint32_t threads = 0;
 };
 
@@ -49,7 +49,7 @@ public:
     const Samples& face_samples() const { return *face_samples_; }
     const Samples& line_samples() const { return *line_samples_; }
     const std::vector<Label>& background() const { return options_.background; }
-    /// Of all vertices; empty where there are no faces.
+    /// Box of all vertices; empty where there are no faces.
     const Box& bounds() const { return bounds_; }
     std::uint32_t part_count() const { return model_.part_count(); }
 
@@ -74,7 +74,7 @@ private:
     Box bounds_;
     std::optional<Samples> face_samples_, line_samples_;
     std::unique_ptr<SearchedPart> part_;
-    std::uint32_t number_ = 0;  // of part_
+    std::uint32_t number_ = 0;  // number of part_
 };
 
 }  // namespace regionmesh

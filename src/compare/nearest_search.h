@@ -11,15 +11,15 @@
 
 namespace regionmesh {
 
-/// What points look for, besides the nearest of all.
+/// Goals of points, besides the nearest of all faces.
 enum class Goal { kAll, kFirstRegion, kSecondRegion, kStratum };
 inline constexpr int kGoalCount = 4;
 
 /// The goals of the samples of a stratum: distances that the other model has.
 struct Goals {
     bool all = false;
-    std::array<Label, 2> regions{exterior(0), exterior(0)};  // whose boundaries are looked for; exterior: none
-    std::uint32_t stratum = kNoStratum;                      // of the other model
+    std::array<Label, 2> regions{exterior(0), exterior(0)};  // regions whose boundaries are looked for; exterior: none
+    std::uint32_t stratum = kNoStratum;                      // stratum of the other model
 };
 
 /// Points and the squared distances found so far. Memory: 12 bytes a point, and 8 for each goal that a point has.
@@ -39,7 +39,7 @@ public:
     /// Searches a part for some points, in ascending order. `numbers` are those of its strata in the model.
     void look(const StrataTree& tree, std::span<const std::uint32_t> numbers, std::span<const std::uint64_t> some,
               std::uint32_t threads);
-    /// By point: distances, 0 if not greater than `rounding`; NaN where a point has no such goal.
+    /// Distances of the points, 0 if not greater than `rounding`; NaN where a point has no such goal.
     std::vector<double> take(Goal goal, double rounding);
 
 private:
@@ -47,9 +47,10 @@ private:
 
     std::span<const Vec3> points_;
     const Samples* samples_ = nullptr;
-    std::vector<Goals> goals_;                             // by stratum of the samples; one for all without samples
-    std::array<std::vector<double>, kGoalCount> squared_;  // by point; infinite: not found yet, NaN: no goal of it
-    std::vector<std::uint32_t> homes_;                     // by point: the part where it begins
+    std::vector<Goals> goals_;  // one per stratum of the samples, or one
+    std::array<std::vector<double>, kGoalCount>
+        squared_;                       // squares of distances; infinite: not found yet, NaN: no goal
+    std::vector<std::uint32_t> homes_;  // part where the search of each point begins
 };
 
 /// Searches all parts of the model that may hold the nearest, one at a time: each point first in one part, then in

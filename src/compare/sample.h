@@ -36,7 +36,7 @@ public:
 
 private:
     std::vector<double> measures_;
-    std::vector<std::uint64_t> starts_;  // by stratum, and one more
+    std::vector<std::uint64_t> starts_;  // first sample of each stratum, and one more
 };
 
 /// The points of samples, taken from the parts of the model one after another: the strata of the model are those of the
@@ -47,13 +47,13 @@ public:
 
     /// Takes the points that lie in the next part. `numbers`, by stratum of the part, are those of the model.
     void add(const SortedStrata& part, std::span<const std::uint32_t> numbers, std::uint32_t threads);
-    /// By sample, after all parts.
+    /// One per sample; valid after all parts.
     std::vector<Vec3> take() { return std::move(points_); }
 
 private:
     /// Some samples of a stratum.
     struct Range {
-        std::uint32_t number, stratum;  // of the stratum in the model and in the part
+        std::uint32_t number, stratum;  // number of the stratum in the model, and in the part
         std::uint64_t first, end;
         double before;  // measure of the stratum in the parts before
     };
@@ -61,8 +61,8 @@ private:
 
     const Samples& samples_;
     std::vector<Vec3> points_;
-    std::vector<double> before_;       // by stratum: measure in the parts so far
-    std::vector<std::uint64_t> next_;  // by stratum: first sample that lies in none of them
+    std::vector<double> before_;       // measure of each stratum in the parts so far
+    std::vector<std::uint64_t> next_;  // first sample of each stratum that lies in none of these parts
 };
 
 }  // namespace regionmesh

@@ -25,7 +25,7 @@ std::uint32_t chunks_of(std::size_t count) { return static_cast<std::uint32_t>((
 struct Found {
     std::vector<Simplex> simplices;
     std::vector<std::uint32_t> sets;
-    std::vector<std::vector<Label>> labels;  // by set
+    std::vector<std::vector<Label>> labels;  // labels of each set
 };
 
 bool is_empty_space(const CommonView& view, const std::vector<Label>& labels) {

@@ -31,9 +31,9 @@ struct Stratum {
 struct SortedStrata {
     std::vector<Vec3> points;
     std::vector<Simplex> simplices;
-    std::vector<double> ends;     // by simplex: area or length of its stratum up to and including it
-    std::vector<Stratum> strata;  // in order of labels
-    Box bounds;                   // of all vertices of the mesh
+    std::vector<double> ends;     // one per simplex: area or length of its stratum up to and including it
+    std::vector<Stratum> strata;  // strata in order of labels
+    Box bounds;                   // box of all vertices of the mesh
 
     /// Area or length of a stratum.
     double measure(const Stratum& stratum) const { return ends[stratum.end - 1]; }
@@ -45,7 +45,7 @@ struct CommonView {
     const CommonLabels& labels;
     int which = 0;                   // model 0 or 1 of `labels`
     std::vector<Label> background;   // common; a simplex without other labels than these and the exterior is omitted
-    const MeshPart* part = nullptr;  // which faces to take, and edges by their first vertex; nullptr: all
+    const MeshPart* part = nullptr;  // part whose faces are taken, and edges by their first vertex; nullptr: all
 };
 
 /// Interfaces: two labels each.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kFan = EightBoxes::kCount, kRun = kFan * kFan;
 constexpr std::uint32_t kRunsPerTask = 1024;
-constexpr float kMargin = 0x1p-22f;  // of boxes, in half extents: exceeds the rounding of single precision
+constexpr float kMargin = 0x1p-22f;  // margin of boxes, in half extents: exceeds the rounding of single precision
 
 }  // namespace
 

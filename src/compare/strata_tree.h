@@ -54,7 +54,7 @@ private:
 
     const SortedStrata& sorted_;
     Vec3 middle_;       // origin of the single-precision coordinates,
-    double scale_ = 1;  // whose unit is the half extent of the model
+    double scale_ = 1;  // scale whose unit is the half extent of the model
     std::vector<Run> runs_;
     std::vector<EightBoxes> blocks_;
     BoxTree all_;

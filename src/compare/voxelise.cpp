@@ -96,7 +96,7 @@ void Voxeliser::find_sides(SampleLines& lines) {
     for (int axis = 0; axis < 3; ++axis) lines.turn_back_at(axis, box.high[axis]);
 }
 
-/// In the axes of the sweep: the line of samples along x, sections along z.
+/// Axes of the sweep: the line of samples along x, sections along z.
 Vec3 Voxeliser::in_sweep(Vec3 p) const {
     const auto& axes = options_.sweep.axes;
     return {p[axes[0]], p[axes[1]], p[axes[2]]};
@@ -138,7 +138,7 @@ std::uint32_t Voxeliser::end_at_or_below(int axis, double high) const {
 }
 
 void Voxeliser::find_sections(std::uint32_t threads) {
-    constexpr std::uint32_t kVertices = 4096;  // of a task
+    constexpr std::uint32_t kVertices = 4096;  // vertices of a task
     sections_of_.resize(mesh_.vertex_end());
     for_each_index(mesh_.vertex_end(), kVertices, threads, [&](std::uint32_t v) {
         if (!mesh_.is_alive(VertexId{v})) return;
@@ -147,7 +147,7 @@ void Voxeliser::find_sections(std::uint32_t threads) {
     });
 }
 
-/// Those that the face may reach.
+/// Sections that the face may reach.
 Voxeliser::Sections Voxeliser::sections_of(FaceId f) const {
     const auto& [a, b, c] = mesh_[f].vertices;
     const Sections &at_a = sections_of_[index(a)], &at_b = sections_of_[index(b)], &at_c = sections_of_[index(c)];
@@ -259,7 +259,7 @@ void Voxeliser::label_row(std::span<const Crossing> crossings, std::uint64_t fir
     };
     Label now = outside;
     bool contradicts = false;
-    std::size_t begin = 0, end = 0;  // of the samples since the last crossing
+    std::size_t begin = 0, end = 0;  // range of the samples since the last crossing
     const auto label_up_to = [&](std::size_t sample) {
         begin = std::exchange(end, sample);
         std::fill(labels.begin() + begin, labels.begin() + end, now);
@@ -329,7 +329,7 @@ void add_samples(SampleAgreement& counts, LabelTable& labels, const std::vector<
 
 SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std::vector<Label>& background,
                                 SectionReader& reader, std::uint32_t threads) {
-    constexpr std::uint32_t kMostSections = 4;  // of a wave; it is read while the one before is compared
+    constexpr std::uint32_t kMostSections = 4;  // sections of a wave; it is read while the one before is compared
     const VolumeInfo& info = reader.info();
     if (info.can_rewind) reader.rewind();
     Voxeliser voxeliser(mesh, {.lattice = info.lattice, .sweep = info.sweep, .background = background}, threads);
@@ -345,7 +345,7 @@ SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std:
             labels.dense(input, ahead[read]);
         }
     };
-    std::vector<SampleAgreement> agreements(most);  // of all sections that had this place in a wave
+    std::vector<SampleAgreement> agreements(most);  // sums of all sections with the same index in their wave
     read_ahead();
     while (read > 0) {
         std::swap(given, ahead);

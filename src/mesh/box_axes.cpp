@@ -19,7 +19,7 @@
 namespace regionmesh {
 namespace {
 
-constexpr double kTolerance = 1e-6;  // of the size of the box: files may be of single precision
+constexpr double kTolerance = 1e-6;  // share of the size of the box: files may be of single precision
 constexpr double kParallel = 1e-3;   // small faces of such files are farther off than that
 
 template <class Visit>
@@ -66,7 +66,7 @@ std::optional<std::array<Vec3, 3>> square_normals(const Mesh& mesh) {
     return std::array{*u, *v, cross(*u, *v)};
 }
 
-/// Those of any box with parallel sides: the largest faces of three directions.
+/// Axes of any box with parallel sides: the largest faces of three directions.
 std::optional<std::array<Vec3, 3>> any_normals(const Mesh& mesh) {
     std::array<Vec3, 3> normals;
     for (std::size_t n = 0; n < 3; ++n) {
@@ -90,7 +90,7 @@ auto coordinates(Vec3 p) { return std::tuple(p.x, p.y, p.z); }
 
 }  // namespace
 
-/// Of a face with the exterior.
+/// Normal and area of a face with the exterior.
 struct BoxAxes::Side {
     FaceId face;
     int side;
@@ -184,7 +184,7 @@ void BoxAxes::note_positions(const Mesh& mesh) {
 bool BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, bool needs_all_axes,
                          std::vector<Side>& sides) const {
     bool is_box = true;
-    std::array<bool, 3> has_face{};  // by axis
+    std::array<bool, 3> has_face{};  // one per axis
     std::vector<SideSet> of_vertex(mesh.vertex_end());
     for_outer_faces(mesh, [&](FaceId f) {
         if (!is_box) return;

@@ -1,4 +1,4 @@
-// On which sides of a box points lie.
+// The sides of a box on which points lie.
 #pragma once
 
 #include <algorithm>
@@ -47,7 +47,7 @@ SideSet sides_at(const Points& points, const Box& box, double tolerance) {
     return sides;
 }
 
-/// Of the sides that both ends of an edge lie on, those on which a face with these labels may end there, where the box
+/// The sides, of those that both ends of an edge lie on, on which a face with these labels may end there, where the box
 /// is open: not the side that it lies in.
 inline SideSet open_sides(SideSet of_ends, const std::array<Label, 2>& labels) {
     for (const Label label : labels)

@@ -10,7 +10,7 @@
 
 namespace regionmesh {
 
-/// Of the meshes added, which may be the parts of one.
+/// The rounding of the meshes added, which may be the parts of one.
 class EdgeRounding {
 public:
     void add(const Mesh& mesh) {

@@ -39,7 +39,7 @@ inline bool boxes_overlap(const std::array<Vec3, 3>& p, const std::array<Vec3, 3
 
 /// Do the faces have a common vertex?
 inline bool share_vertex(const std::array<VertexId, 3>& v, const std::array<VertexId, 3>& w) {
-    bool share = false;  // without branches: they would be mispredicted
+    bool share = false;  // no branches: they would be mispredicted
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) share |= v[i] == w[j];
     return share;

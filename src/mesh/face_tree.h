@@ -21,7 +21,7 @@ public:
     using GridBox = GridTree::GridBox;
     enum class Faces : std::uint8_t { kOneByOne, kInPairs };
 
-    /// On at most `threads` threads (0: one per core).
+    /// Runs on at most `threads` threads (0: one per core).
     explicit FaceTree(const Mesh& mesh, std::uint32_t threads = 1, Faces faces = Faces::kOneByOne)
         : mesh_(&mesh), is_paired_(faces == Faces::kInPairs) {
         build(threads);

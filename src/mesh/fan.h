@@ -13,7 +13,7 @@ namespace regionmesh {
 /// A face at a vertex, seen from one region: it leads from one neighbour of the vertex to the next.
 struct FanPage {
     VertexId first, second;
-    std::uint32_t name;  // of the page, in the caller's numbering
+    std::uint32_t name;  // name of the page, in the caller's numbering
 };
 
 inline bool is_closed(std::span<const FanPage> fan) { return fan.back().second == fan.front().first; }
@@ -35,7 +35,7 @@ inline bool extend_back(std::span<FanPage> fan, std::size_t n) {
 inline bool order_fan(std::span<FanPage> fan) {
     for (std::size_t n = 1; n < fan.size(); ++n) {
         if (is_closed(fan.first(n))) return false;
-        // Without branches: they would be mispredicted.
+        // No branches: they would be mispredicted.
         const VertexId here = fan[n - 1].second;
         std::size_t next = 0, fits = 0;
         for (std::size_t m = n; m < fan.size(); ++m) {

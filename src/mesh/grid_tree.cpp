@@ -196,7 +196,7 @@ private:
 /// The part and the other one whose pairs are searched for, and what each level of the search passes to the next.
 struct GridTree::PairSearch {
     std::uint32_t part, other;
-    std::array<std::vector<GridBox>, 3> boxes;  // of the part, by level, in order
+    std::array<std::vector<GridBox>, 3> boxes;  // boxes of the part, level after level, in order
     PairList groups;                            // pairs of groups a, b
     PairList lanes;                             // group b, and a box of a that meets the bounding box of b
     PairList pairs;                             // a box of a, and a box of b that meets it
@@ -274,7 +274,7 @@ void GridTree::find_pairs(std::uint32_t other, PairSearch& search) const {
     }
 }
 
-/// From pairs of groups to pairs of their members. Without branches that depend on the data: most would be
+/// Pairs of groups become pairs of their members. No branches that depend on the data: most would be
 /// mispredicted.
 void GridTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
     auto& [part, other, boxes, groups, lanes, pairs] = search;

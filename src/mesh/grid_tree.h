@@ -15,7 +15,7 @@
 
 namespace regionmesh {
 
-/// For each number below 256: which bits are set, and how many.
+/// The bits of each number below 256, and how many are set.
 struct SetBits {
     alignas(16) std::uint32_t bits[256][8];
     std::uint8_t count[256];

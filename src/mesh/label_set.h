@@ -17,7 +17,7 @@ public:
         labels_[size_] = label;
         size_ += !contains(label) & (size_ < kCapacity);
     }
-    /// Without branches that depend on labels: they would be mispredicted.
+    /// No branches that depend on labels: they would be mispredicted.
     bool contains(Label label) const {
         bool has = false;
         for (int i = 0; i < size_; ++i) has |= labels_[i] == label;

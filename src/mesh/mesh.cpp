@@ -35,11 +35,11 @@ void sort_runs(std::span<KeyedIndex> items, Rank&& rank) {
     }
 }
 
-/// By key, and by rank(index) where keys are equal.
+/// Order by key, and by rank(index) where keys are equal.
 template <class Rank>
 void sort_by_key(std::vector<KeyedIndex>& items, std::uint32_t threads, Rank&& rank) {
     radix_sort(items, threads);
-    std::vector<std::size_t> starts{0};  // of parts that hold whole runs
+    std::vector<std::size_t> starts{0};  // starts of parts that hold whole runs of equal keys
     while (starts.back() < items.size()) {
         std::size_t at = std::min(starts.back() + kChunk, items.size());
         while (at < items.size() && items[at].key == items[at - 1].key) ++at;

@@ -13,7 +13,7 @@
 
 namespace regionmesh {
 
-/// Which part each vertex and each face belongs to. Each belongs to one. The mesh has all faces whose boxes reach into
+/// The part of each vertex and each face. Each belongs to one. The mesh has all faces whose boxes reach into
 /// the place of the part.
 struct MeshPart {
     std::uint32_t number = 0;

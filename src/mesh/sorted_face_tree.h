@@ -33,7 +33,7 @@ public:
     }
 
     std::size_t bytes() const { return boxes_.bytes() + faces_.capacity() * sizeof(FaceId); }
-    /// By place: its pairs include every two faces that meet.
+    /// Tree over indices in the sorted order: its pairs include every two faces that meet.
     const GridTree& boxes() const { return boxes_; }
     FaceId face(std::uint32_t place) const { return faces_.empty() ? FaceId{place} : faces_[place]; }
 
@@ -41,7 +41,7 @@ private:
     template <class BoxOf>
     void build(std::uint32_t face_end, const Box& extent, const BoxOf& box_of, std::uint32_t threads);
 
-    std::vector<FaceId> faces_;  // by place; empty if places are ids
+    std::vector<FaceId> faces_;  // face of each index; empty if indices are ids
     GridTree boxes_;
 };
 

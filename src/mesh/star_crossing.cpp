@@ -31,7 +31,7 @@ void StarCrossing::find(VertexId v, Vec3 at, std::span<const StarPage> pages, st
             all_proved = false;
         }
     }
-    // With three labels, any two faces have a label in common if each has two different ones.
+    // Three labels: any two faces have a label in common if each has two different ones.
     if (!all_proved || is_odd_ || labels_.size() > 3) test_pairs(v, found);
 }
 
@@ -137,7 +137,7 @@ void StarCrossing::gather_planes() {
     planes_.clear();
     for (const StarPage& page : pages_) {
         const Vec3 a = page.at_a - at_, b = page.at_b - at_;
-        // For sizes out of range the sides stay undecided.
+        // Sizes out of range: the sides stay undecided.
         const bool usual = is_usual(size_of(a)) && is_usual(size_of(b));
         planes_.push_back({cross(a, b), {a, usual ? size_of(a) : HUGE_VAL}, {b, usual ? size_of(b) : HUGE_VAL}});
     }

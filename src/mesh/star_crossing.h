@@ -75,10 +75,10 @@ private:
     std::span<const StarPage> pages_;
     LabelSet labels_;
     bool is_odd_ = false;                // some page has one label on both sides
-    std::vector<std::uint32_t> proved_;  // by page; bit n: its fan of label n of labels_ is free of crossings
+    std::vector<std::uint32_t> proved_;  // one per page; bit n: its fan of label n of labels_ is free of crossings
     std::vector<FanPage> fan_;
-    std::size_t count_ = 0;      // of pages of the fan whose spokes and normals are held
-    std::vector<Spoke> spokes_;  // to the rim: one more
+    std::size_t count_ = 0;      // number of pages of the fan whose spokes and normals are held
+    std::vector<Spoke> spokes_;  // spokes to the link: one more than pages
     std::vector<Vec3> normals_;
     Vec3 up_;
     std::vector<double> weights_;

@@ -24,7 +24,7 @@ void StarEdges::gather(const Mesh& mesh, VertexId v) {
             uses_[at] += 2;
         }
     });
-    // Where the surface ends sides count, too.
+    // Sides count, too, where the surface ends.
     for (std::size_t n = 0; n < ends_.size(); ++n)
         if (uses_[n] < 2 * labels_[n].size()) labels_[n] = edge_labels(mesh, v, ends_[n]);
 }

@@ -15,13 +15,13 @@ public:
 
     /// The other ends, in the order in which the faces of the star name them.
     const std::vector<VertexId>& ends() const { return ends_; }
-    /// By end: edge_labels of the edge (mesh/strata.h).
+    /// One per end: edge_labels of the edge (mesh/strata.h).
     const std::vector<LabelSet>& labels() const { return labels_; }
 
 private:
     std::vector<VertexId> ends_;
     std::vector<LabelSet> labels_;
-    std::vector<int> uses_;  // by end: sides of its faces
+    std::vector<int> uses_;  // one per end: number of sides of its faces
 };
 
 }  // namespace regionmesh

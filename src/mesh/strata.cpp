@@ -49,7 +49,7 @@ LabelSet edge_labels(const Mesh& mesh, VertexId u, VertexId v) {
 }
 
 void count_labels(Mesh& mesh, std::uint32_t threads) {
-    constexpr std::uint32_t kVertices = 4096;  // of a task
+    constexpr std::uint32_t kVertices = 4096;  // vertices of a task
     for_each_index(mesh.vertex_end(), kVertices, threads, [&](std::uint32_t v) {
         Vertex& vertex = mesh[VertexId{v}];
         if (!vertex.is_alive || vertex.star == kNoCorner) return;

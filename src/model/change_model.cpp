@@ -51,7 +51,7 @@ WantedVolumes volumes_of(const CheckReport& report) {
     return volumes;
 }
 
-/// Those of the samples, or of the box of the mesh where it is not theirs.
+/// Axes of the samples, or of the box of the mesh where it is not theirs.
 BoxAxes axes_of(Mesh& mesh, const std::optional<Lattice>& samples) {
     if (samples)
         if (BoxAxes axes(mesh, *samples); axes.samples()) return axes;

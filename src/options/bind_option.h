@@ -123,7 +123,7 @@ OptionSpec word_option(OptionSpec row, std::vector<std::string_view> words, Choo
     return row;
 }
 
-/// Where not giving it is something else than giving one of its values.
+/// An option whose absence differs from each of its values.
 inline OptionSpec without_default(OptionSpec row) {
     row.default_text.clear();
     return row;

@@ -51,7 +51,7 @@ std::string usage(const CommandSpec& command) {
     return line + " [OPTIONS]";
 }
 
-/// For a cell of a table.
+/// Text for a cell of a table.
 std::string escaped(std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, 1, '\\');
     return text;

@@ -56,7 +56,7 @@ complete -o filenames -F _regionmesh regionmesh
 )";
 }
 
-/// For a string in single quotes, with the letters that _arguments gives a meaning made harmless.
+/// Text for a string in single quotes, with the letters that _arguments gives a meaning made harmless.
 std::string zsh_text(std::string_view text) {
     std::string all;
     for (const char c : text) {

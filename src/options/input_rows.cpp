@@ -1,4 +1,4 @@
-// What to read: arguments, volumes, points, labels, surfaces.
+// Rows of the input: arguments, volumes, points, labels, surfaces.
 #include <algorithm>
 #include <iterator>
 
@@ -41,7 +41,7 @@ void add_background(Settings& settings, const std::string& flag, const std::stri
     settings.volume.select.rest = background.front();
 }
 
-// What to model of a volume; in the order in which it is done.
+// The part of a volume to model; in the order in which it is done.
 Rows selection_rows() {
     constexpr std::string_view kGroup = "Input";
     constexpr std::uint32_t kLatticeCommands = kVolumeCommands | kVoxelise;

@@ -1,4 +1,4 @@
-// What help texts say of an option.
+// Texts about an option in the help.
 #include "regionmesh/options.h"
 
 namespace regionmesh {

@@ -53,7 +53,7 @@ std::optional<ParsedLabel> label_in(const std::string& text) {
     return std::nullopt;
 }
 
-/// Of "A:B,A:B,A:B" along x, y and z, as typed; either end may be empty. None for a text of another form.
+/// Ranges of "A:B,A:B,A:B" along x, y and z, as typed; either end may be empty. None for a text of another form.
 std::optional<std::array<std::pair<std::string, std::string>, 3>> ends_of_ranges(const std::string& text) {
     const std::vector<std::string> parts = split(text);
     if (parts.size() != 3) return std::nullopt;

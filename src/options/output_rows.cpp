@@ -1,4 +1,4 @@
-// What to write, and what the run may use.
+// Rows of files to write, and of resources that the run may use.
 #include <algorithm>
 #include <array>
 #include <string_view>

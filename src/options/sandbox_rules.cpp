@@ -1,4 +1,4 @@
-// What the process of a command may still do: read anything, write below the folders of its outputs.
+// Rights that the process of a command keeps: read anything, write below the folders of its outputs.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What the stages do: decimation, smoothing, quality, comparison.
+// Rows of the stages: decimation, smoothing, quality and crossing, comparison.
 #include <algorithm>
 
 #include "base/option_range.h"

@@ -11,7 +11,7 @@
 namespace regionmesh {
 namespace {
 
-constexpr double kLevels = 65535;  // of a quantised coordinate or distance
+constexpr double kLevels = 65535;  // steps of a quantised coordinate or distance
 
 using Place = std::array<std::uint16_t, 3>;
 
@@ -64,7 +64,7 @@ private:
         return is_exterior(label) ? view_.labels().size() : view_.rank(label);
     }
 
-    /// By pair of labels, then along a curve: neighbours in the list are mostly neighbours on the surface.
+    /// Order by pair of labels, then along a curve: neighbours in the list are mostly neighbours on the surface.
     void sort_faces() {
         const Mesh& mesh = view_.mesh();
         view_.for_faces([&](FaceId f) {
@@ -90,7 +90,7 @@ private:
         return corners;
     }
 
-    /// In order of first use. Vertices without a face are left out.
+    /// Vertices in order of first use. Those without a face are left out.
     void number_vertices() {
         numbers_.assign(view_.mesh().vertex_end(), kNone);
         for (const SortedFace& face : sorted_)
@@ -153,7 +153,7 @@ private:
     const FileView& view_;
     std::span<const double> distances_;
     std::vector<SortedFace> sorted_;
-    std::vector<std::uint32_t> numbers_;  // by vertex id
+    std::vector<std::uint32_t> numbers_;  // one per vertex id
     std::vector<VertexId> order_;
     PageGeometry made_;
 };

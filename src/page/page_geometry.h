@@ -19,9 +19,9 @@ struct PagePair {
 struct PageGeometry {
     Vec3 low{}, high{};
     std::uint32_t vertices = 0, faces = 0;
-    std::vector<PagePair> pairs;      // in the order of the faces
+    std::vector<PagePair> pairs;      // pairs in the order of the faces
     std::vector<std::uint8_t> bytes;  // viewer/README.md gives the layout
-    std::uint32_t index_bytes = 0;    // of the part with the faces
+    std::uint32_t index_bytes = 0;    // bytes of the part with the faces
     double largest_distance = 0;      // 0 where there are no distances
 };
 

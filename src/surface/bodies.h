@@ -62,10 +62,10 @@ private:
     const Mesh& mesh_;
     SortedFaceTree tree_;
     ExactRay ray_;
-    std::vector<std::uint32_t> shells_;        // by side
+    std::vector<std::uint32_t> shells_;        // shell of each side
     std::vector<FaceSide> sides_;              // grouped by shell
     std::vector<std::uint32_t> shell_starts_;  // start of each shell in sides_, and the end
-    std::vector<std::uint32_t> shell_bodies_;  // by shell: its body, once known
+    std::vector<std::uint32_t> shell_bodies_;  // body of each shell, once known
     std::vector<Body> bodies_;
 };
 

@@ -33,7 +33,7 @@ struct Chunk {
     std::vector<ChunkVertex> vertices;
     std::vector<ChunkFace> faces;
     std::vector<std::uint32_t> active;
-    std::vector<float> carried_bounds = {};  // that the error bounds of carried vertices rise to; or empty
+    std::vector<float> carried_bounds = {};  // values that the error bounds of carried vertices rise to; or empty
 
     /// Appends the chunk that follows: its carried vertices are the active ones of this chunk.
     void append(const Chunk& next);

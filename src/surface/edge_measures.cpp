@@ -16,7 +16,7 @@ namespace {
 struct FaceAtEdge {
     VertexId w;
     FaceId face;
-    int place;  // of v in the face
+    int place;  // index of v in the face
 };
 
 /// An edge of a line, with its entry in EdgeMeasures::lines.
@@ -145,7 +145,7 @@ private:
             if (!is_empty(key[0])) measures_.interfaces[key].line_length += edge;
     }
 
-    /// Of a line with many edges, every so many.
+    /// Every n-th edge of a line with many edges.
     void add_angles() {
         double length_of_all = 0;
         for (auto& [ranks, line] : measures_.lines) {
@@ -174,8 +174,8 @@ private:
     /// have no area.
     std::optional<double> angle_inside(VertexId v, Vec3 along, std::span<const FaceAtEdge> faces,
                                        std::uint32_t rank) const {
-        std::array<Vec3, 2> away;  // from the edge, in the face and across the edge
-        Vec3 normal{};             // of the first face, out of the label
+        std::array<Vec3, 2> away;  // directions from the edge, in the face and across the edge
+        Vec3 normal{};             // normal of the first face, out of the label
         int count = 0;
         for (const FaceAtEdge& at : faces) {
             const Face& face = mesh_[at.face];
@@ -203,9 +203,9 @@ private:
     const Mesh& mesh_;
     bool has_angles_;
     EdgeMeasures measures_;
-    std::vector<bool> on_line_, near_line_;  // by vertex; joined by an edge to one on a line is near
-    std::vector<std::uint32_t> ranks_;       // of the labels at the edge
-    std::vector<Key> keys_;                  // of its interfaces
+    std::vector<bool> on_line_, near_line_;  // one per vertex; near: joined by an edge to one on a line
+    std::vector<std::uint32_t> ranks_;       // ranks of the labels at the edge
+    std::vector<Key> keys_;                  // keys of its interfaces
     std::vector<LineEdge> line_edges_;
 };
 

@@ -10,7 +10,7 @@
 
 namespace regionmesh {
 
-/// Of the faces between two labels.
+/// Measures of the faces between two labels.
 struct InterfaceMeasures {
     std::uint64_t faces = 0;
     double area = 0;
@@ -18,18 +18,18 @@ struct InterfaceMeasures {
     /// that is more than one edge away from lines, and the area of that part. Faces on the exterior have none.
     double curvature = 0, curved_area = 0;
     Vec3 moment{};           // integral of the position over the area
-    double line_length = 0;  // of the lines that bound it
+    double line_length = 0;  // length of the lines that bound it
 
     std::optional<double> mean_curvature() const {
         return curved_area > 0 ? std::optional(curvature / curved_area) : std::nullopt;
     }
 };
 
-/// Of the edges at which the same three labels or more meet.
+/// Measures of the edges at which the same three labels or more meet.
 struct LineMeasures {
     std::uint64_t edges = 0;
     double length = 0;
-    std::vector<double> angles;  // by label: integral of its dihedral angle over angle_length, in radians
+    std::vector<double> angles;  // one per label: integral of its dihedral angle over angle_length, in radians
     std::vector<double> angle_length;
 };
 
@@ -39,7 +39,7 @@ struct EdgeMeasures {
     std::map<std::vector<std::uint32_t>, LineMeasures> lines;
 };
 
-/// Without faces and lines that have no other labels than background and exterior.
+/// No faces and lines that have no other labels than background and exterior.
 /// Dihedral angles of lines (LineAngles) take most of the time, and are left out unless they are wanted.
 EdgeMeasures measure_edges(const FileView& view, bool has_angles = false);
 

@@ -96,8 +96,8 @@ private:
     InputLabel exterior_label_;
     Coordinates coordinates_;
     std::uint32_t region_ranks_ = 0;      // ranks from here on are background or exterior
-    std::vector<std::uint32_t> ranks_;    // by dense label: place in the order of files
-    std::vector<std::uint32_t> numbers_;  // by vertex id: number in the file; empty if ids are the numbers
+    std::vector<std::uint32_t> ranks_;    // one per dense label: rank in the order of files
+    std::vector<std::uint32_t> numbers_;  // one per vertex id: number in the file; empty if ids are the numbers
 };
 
 /// Throws Error(kInput) where a face has a label that the table has not; `what` names the model.

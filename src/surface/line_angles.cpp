@@ -33,7 +33,7 @@ constexpr std::size_t kMostFaces = 1000;
 
 constexpr double kFullTurn = 2 * std::numbers::pi;
 
-/// From -pi to pi; none where a direction has no length.
+/// Angle from -pi to pi; none where a direction has no length.
 std::optional<double> angle_about(Vec3 axis, Vec3 from, Vec3 to) {
     const double x = dot(from, to), y = dot(cross(from, to), axis);
     if (!std::isfinite(x) || !std::isfinite(y) || (x == 0 && y == 0)) return std::nullopt;
@@ -77,7 +77,7 @@ const std::vector<std::optional<double>>& LineAngles::at_edge(VertexId v, Vertex
         if (turn) turns_.push_back(*turn);
     }
     if (turns_.size() < ranks.size()) return angles_;
-    // Where interfaces are exchanged, the angle that is farthest from that of the faces gets a full turn less, or more.
+    // Exchanged interfaces: the angle that is farthest from that of the faces gets a full turn less, or more.
     double sum = 0;
     for (const Turn& turn : turns_) sum += turn.angle;
     for (long extra = std::lround(sum / kFullTurn) - 1; extra != 0; extra += extra < 0 ? 1 : -1) {

@@ -34,14 +34,14 @@ public:
     bool was_well_seen() const { return was_well_seen_; }
 
 private:
-    /// Of an interface at the edge.
+    /// An interface at the edge.
     struct Plane {
-        std::array<std::uint32_t, 2> ranks;  // of its labels
-        Vec3 normal;                         // from the first label to the second
-        double error;                        // of its fit
-        Vec3 in_face;                        // from the edge across it, in the face there
+        std::array<std::uint32_t, 2> ranks;  // ranks of its labels
+        Vec3 normal;                         // normal from the first label to the second
+        double error;                        // error of its fit
+        Vec3 in_face;                        // direction from the edge across it, in the face there
         bool is_second_onward;               // anticlockwise round the edge, the second label comes after the interface
-        Vec3 away = {};                      // from the edge, square to the axis and the normal
+        Vec3 away = {};                      // direction from the edge, square to the axis and the normal
     };
     /// The turn from one side of a label to the other: between interfaces, and between the faces at the edge.
     struct Turn {
@@ -57,15 +57,15 @@ private:
     const Mesh& mesh_;
     const std::vector<bool>& on_line_;
     double edge_length_, reach_;
-    int rounds_;  // of fits
+    int rounds_;  // rounds of fits
     std::vector<Plane> planes_;
     Vec3 along_{}, axis_{};  // unit vectors
     bool was_well_seen_ = true;
     std::vector<std::optional<double>> angles_;
     std::vector<Turn> turns_;
     std::vector<FaceId> found_;
-    std::vector<NearFace> near_, off_line_;  // of the interface: all, and those that have no vertex on a line
-    std::vector<std::uint32_t> seen_;        // by face: the last search that met it
+    std::vector<NearFace> near_, off_line_;  // faces of the interface: all, and those that have no vertex on a line
+    std::vector<std::uint32_t> seen_;        // one per face: the last search that met it
     std::uint32_t search_ = 0;
 };
 

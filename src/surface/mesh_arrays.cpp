@@ -130,7 +130,7 @@ bool has_rims_on_hull(const MeshArrays& arrays) {
 /// An edge with one face, which lies between two regions; both ends are on the hull.
 struct OpenEdge {
     VertexId a, b;
-    SideSet planes;  // of the box, in which the edge lies and the face does not
+    SideSet planes;  // planes of the box in which the edge lies and the face does not
 };
 
 std::vector<OpenEdge> find_open_edges(const Mesh& mesh, const MeshArrays& arrays, const Box& box) {
@@ -153,7 +153,7 @@ std::vector<OpenEdge> find_open_edges(const Mesh& mesh, const MeshArrays& arrays
     return edges;
 }
 
-/// Where the regions on both sides are background, or no side is capped, an interface ends on a side of the box, in
+/// Both regions background, or no side capped: an interface ends on a side of the box, in
 /// edges with one face: their ends lie on that side, too. `box` is that of the points, and interfaces need not reach
 /// all sides: one of its planes is known to be a side where it has capped faces, or an open edge that lies in no other
 /// plane. An edge lies on the known sides among its planes, or on all of them if none is known.
@@ -210,7 +210,7 @@ LabelledMesh assemble(const MeshArrays& arrays) {
     // A vertex without a face on a side of the box may lie on a side that is not capped, or on a hull of another shape.
     for (std::uint32_t v = 0; v < arrays.node_types.size(); ++v)
         if (arrays.node_types[v] >= kFirstHullType && mesh[VertexId{v}].sides == 0) mesh[VertexId{v}].sides = kOnHull;
-    if (!has_sides) BoxAxes(mesh).restore(mesh);  // which finds the sides of an oblique box
+    if (!has_sides) BoxAxes(mesh).restore(mesh);  // restore() finds the sides of an oblique box
     return made;
 }
 

@@ -76,7 +76,7 @@ double mean_by_area(NearFaces faces, const std::vector<double>& weights, const s
 
 }  // namespace
 
-/// With the weights of Geman and McClure: a wedge that is thinner than a sample near the line has faces there that have
+/// Weights of Geman and McClure: a wedge that is thinner than a sample near the line has faces there that have
 /// nothing to do with its interfaces.
 FittedNormal fit_normal(NearFaces faces, double reach, int rounds) {
     if (faces.empty()) return {};

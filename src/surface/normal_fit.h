@@ -7,14 +7,14 @@
 
 namespace regionmesh {
 
-/// Where the middle of a face lies, from the place, and its normal of length 1.
+/// The middle of a face, relative to the position of the fit, and its normal of length 1.
 struct NearFace {
     Vec3 at, normal;
     double area;
 };
 
 struct FittedNormal {
-    Vec3 normal;   // at the place; of any length
+    Vec3 normal;   // normal at the position of the fit; of any length
     double error;  // mean square of the normals less those of the first fit
 };
 

@@ -12,7 +12,7 @@
 namespace regionmesh {
 namespace {
 
-/// Of Okabe and Ito (2008) and Tol (2021), with light and dark tones, without the greys.
+/// Colours of Okabe and Ito (2008) and Tol (2021), with light and dark tones, without the greys.
 constexpr std::array<std::uint32_t, 16> kPalette{0x56B4E9, 0xE69F00, 0x009E73, 0xCC6677, 0xF0E442, 0x4466BB,
                                                  0xCC79A7, 0x88CCEE, 0xDDAA66, 0x44AA99, 0xEE8866, 0xAA4499,
                                                  0xBBCC33, 0x8877CC, 0xD55E00, 0xFFAABB};
@@ -37,7 +37,7 @@ Colour product(const Matrix& matrix, const Colour& colour) {
     return made;
 }
 
-/// What is seen of linear RGB: normal, and full protanopia and deuteranopia (Machado, Oliveira and Fernandes 2009).
+/// Linear RGB as it is seen: normal, and full protanopia and deuteranopia (Machado, Oliveira and Fernandes 2009).
 constexpr std::array<Matrix, 3> kEyes{
     {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
      {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}},
@@ -55,7 +55,7 @@ Colour lab(const Colour& rgb) {
     return {116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])};
 }
 
-using Views = std::array<Colour, kEyes.size()>;  // of one colour, for all kinds of eyes, in L*a*b*
+using Views = std::array<Colour, kEyes.size()>;  // one colour for all kinds of eyes, in L*a*b*
 
 Views views_of(std::uint32_t colour) {
     Views views;
@@ -112,7 +112,7 @@ constexpr std::size_t kNoColour = kPalette.size();
 std::size_t best_colour(const std::vector<std::size_t>& taken, const std::array<std::size_t, kPalette.size()>& uses,
                         const Distances& distances) {
     constexpr double kEnough = 30;  // differences above it are plain to see
-    constexpr double kPerUse = 5;   // of difference, for each use more than that of the least used colour
+    constexpr double kPerUse = 5;   // difference for each use more than that of the least used colour
     const std::size_t least = *std::ranges::min_element(uses);
     std::size_t best = 0;
     double best_score = -std::numeric_limits<double>::infinity();
@@ -175,7 +175,7 @@ std::string hex_of(std::uint32_t colour) {
 
 std::array<std::uint8_t, 3> FaceColours::operator()(FaceId f) const {
     const std::uint32_t rank = std::min(view_.rank(view_.mesh()[f].labels[0]), view_.rank(view_.mesh()[f].labels[1]));
-    constexpr std::uint32_t kGrey = 0x808080;  // between two sides of the box
+    constexpr std::uint32_t kGrey = 0x808080;  // colour between two sides of the box
     return rgb_of(rank < colours_.size() ? colours_[rank] : kGrey);
 }
 

@@ -16,7 +16,7 @@ namespace regionmesh {
 /// protanopic and deuteranopic eyes. Depends on the mesh, the labels and the given colours only.
 std::vector<std::uint32_t> region_colours(const FileView& view);
 
-/// By place, the places of the regions with a common interface.
+/// One list per region: indices of the regions with a common interface.
 using RegionNeighbours = std::vector<std::set<std::uint32_t>>;
 
 /// Adds those in a part of a model. All parts have the same labels and background.

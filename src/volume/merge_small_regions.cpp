@@ -124,10 +124,10 @@ private:
     VolumeInfo info_;
     RegionNumbers numbers_;
     std::vector<InputLabel> section_;
-    std::vector<std::uint32_t> parents_;   // of the first pass: numbers of one region
-    std::vector<std::uint32_t> small_of_;  // by number: which small region, or kNone
+    std::vector<std::uint32_t> parents_;   // parents of the first pass: numbers of one region
+    std::vector<std::uint32_t> small_of_;  // one per number: its small region, or kNone
     SmallRegions small_;
-    std::vector<InputLabel> labels_;  // of small regions
+    std::vector<InputLabel> labels_;  // labels of small regions
 };
 
 }  // namespace

@@ -35,7 +35,7 @@ public:
     std::uint32_t number(std::uint32_t u, std::uint32_t v) const { return now_.numbers[place(u, v)]; }
 
 private:
-    // With a row and a column of kNone in front, so that every sample has neighbours.
+    // A row and a column of kNone come first, so that every sample has neighbours.
     struct Layer {
         std::vector<std::uint32_t> numbers;
         std::vector<InputLabel> labels;

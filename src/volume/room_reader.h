@@ -37,7 +37,7 @@ private:
         float weight;
     };
 
-    using Weights = std::vector<std::pair<InputLabel, float>>;  // by label, in the order in which they are met
+    using Weights = std::vector<std::pair<InputLabel, float>>;  // label and weight, in the order met
 
     void make_offsets(double room);
     void read_ahead();

@@ -1,4 +1,4 @@
-// Which label a small region gets.
+// The label that a small region gets.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace regionmesh {
 /// Small regions, their sizes in samples and the areas of their interfaces.
 class SmallRegions {
 public:
-    /// Of labels in this order.
+    /// Order of labels.
     explicit SmallRegions(InputLabelOrder order) : less_(order) {}
     /// Returns the number of the region.
     std::uint32_t add(InputLabel label, std::uint64_t samples);
@@ -32,8 +32,8 @@ private:
         InputLabel label;
         std::uint64_t samples;
         std::map<std::uint32_t, double> small = {};  // areas of the interfaces with other small regions
-        std::map<InputLabel, double> large = {};     // with all others, by label
-        std::uint32_t joined;                        // to this region; itself: to none
+        std::map<InputLabel, double> large = {};     // interface with all others, by label
+        std::uint32_t joined;                        // region that it joins; itself: none
     };
 
     InputLabel nearest_label(const Region& region) const;

@@ -78,7 +78,7 @@ bool AnyPosition::parts(const Triangle& plane, const Triangle& a, const Triangle
         }
     }
     if (side_of[0] == side_of[1]) return false;
-    // What both have on the plane is shared, or spanned by three points that are not on one line.
+    // Their common points on the plane are shared, or spanned by three points that are not on one line.
     return is_spanned || !has_own[0] || !has_own[1];
 }
 

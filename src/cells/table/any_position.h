@@ -37,7 +37,7 @@ public:
 
 private:
     enum class Side : std::uint8_t { kOn, kBelow, kAbove, kDepends };
-    using Corner = std::array<std::int64_t, 3>;  // in tenths
+    using Corner = std::array<std::int64_t, 3>;  // coordinates in tenths
 
     static std::vector<Corner> range_of(NodeSet simplex);
     Side side(const Triangle& plane, NodeSet point);

@@ -24,9 +24,9 @@ using Loop = std::vector<NodeSet>;
 /// Faces between two labels that are joined by edges.
 struct Sheet {
     std::uint8_t first, second;
-    std::vector<Loop> boundary;  // in the sense of the faces
+    std::vector<Loop> boundary;  // loops in the sense of the faces
     int euler;                   // vertices - edges + faces
-    bool has_main_diagonal;      // as one of its inner vertices
+    bool has_main_diagonal;      // the main diagonal has one of its inner vertices
 };
 
 std::vector<Sheet> sheets_of(const std::vector<CellFace>& faces);

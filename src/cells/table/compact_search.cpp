@@ -29,7 +29,7 @@ bool is_inner_triangle(NodeSet vertex) {
 /// The surface of one cell, with some of its inner vertices left out.
 class CompactCell {
 public:
-    /// Of the vertices inside the cell on lines between three labels, `kept` stay; with `keeps_main` also that of the
+    /// `kept` of the vertices inside the cell on lines between three labels stay; with `keeps_main` also that of the
     /// main diagonal, as an inner vertex of its sheet.
     CompactCell(const Partition& labels, const std::vector<Sheet>& sheets, const std::set<NodeSet>& kept,
                 bool keeps_main, AnyPosition& positions)
@@ -162,9 +162,9 @@ private:
     const std::set<NodeSet>& kept_;
     bool keeps_main_;
     AnyPosition& positions_;
-    std::vector<std::vector<Loop>> boundaries_;  // by sheet
-    std::set<Edge> edges_;                       // of all boundaries
-    std::vector<std::vector<Cut>> cuts_;         // by sheet
+    std::vector<std::vector<Loop>> boundaries_;  // one list per sheet
+    std::set<Edge> edges_;                       // edges of all boundaries
+    std::vector<std::vector<Cut>> cuts_;         // one list per sheet
     std::vector<const Cut*> chosen_;
     std::optional<std::vector<CellFace>> best_;
     double best_quality_ = 0;

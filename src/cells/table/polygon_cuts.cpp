@@ -59,7 +59,7 @@ private:
         cut_.pop_back();
     }
 
-    /// In an annulus two parts of the polygon may meet in an edge that has two triangles already.
+    /// Two parts of the polygon may meet in an edge that has two triangles already.
     void keep() {
         std::map<std::pair<NodeSet, NodeSet>, int> uses;
         std::set<Triangle> key;

@@ -10,7 +10,7 @@ namespace regionmesh::cell_table {
 
 using Cut = std::vector<Triangle>;
 
-/// Which edges a cut may add between two vertices of a boundary.
+/// Edges that a cut may add between two vertices of a boundary.
 using IsChord = std::function<bool(NodeSet, NodeSet)>;
 
 /// The cuts whose triangles are apart from each other at any position, best worst quality first. The boundary is one
