@@ -48,7 +48,7 @@ public:
         heap_.clear();
         const std::uint64_t items = std::max<std::uint64_t>(room_ / std::max<std::size_t>(runs_.size(), 1), 64);
         for (Run& run : runs_) {
-            run.place = run.begin;
+            run.next_item = run.begin;
             run.piece.clear();
             run.at = 0;
             run.piece_items = std::min<std::uint64_t>(items, kPieceItems);
@@ -79,8 +79,8 @@ private:
     static constexpr std::uint64_t kPieceItems = 1 << 14;
 
     struct Run {
-        std::uint64_t begin, end;  // range of items in the file
-        std::uint64_t place = 0;   // index of the next item to read
+        std::uint64_t begin, end;     // range of items in the file
+        std::uint64_t next_item = 0;  // index of the next item to read
         std::vector<Item> piece = {};
         std::size_t at = 0;
         std::uint64_t piece_items = 0;
@@ -97,9 +97,9 @@ private:
     }
 
     bool refill(Run& run) {
-        const std::uint64_t count = std::min(run.piece_items, (run.end - run.place) / sizeof(Item));
+        const std::uint64_t count = std::min(run.piece_items, (run.end - run.next_item) / sizeof(Item));
         run.at = 0;
-        run.place = file_->read_items(run.place, count, run.piece);
+        run.next_item = file_->read_items(run.next_item, count, run.piece);
         return count > 0;
     }
 

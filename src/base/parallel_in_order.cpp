@@ -23,11 +23,11 @@ void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32
         }
         return;
     }
-    // Items begin and finish in order, so those in flight are consecutive and n modulo in_flight is a place of their
+    // Items begin and finish in order, so those in flight are consecutive and n modulo in_flight is a slot of their
     // own.
     std::uint32_t next = 0;
     TaskOrder begun, finished, ended;
-    std::vector<TaskOrder> places(in_flight);  // order of each slot: the work of an item, its end, the next item
+    std::vector<TaskOrder> slots(in_flight);  // order of each slot: the work of an item, its end, the next item
     begun.happened();
     const auto begin = tbb::make_filter<void, std::uint32_t>(tbb::filter_mode::serial_in_order,
                                                              [&](tbb::flow_control& control) -> std::uint32_t {
@@ -39,17 +39,17 @@ void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32
                                                              });
     const auto work = tbb::make_filter<std::uint32_t, std::uint32_t>(tbb::filter_mode::parallel, [&](std::uint32_t n) {
         begun.comes_first();
-        places[n % in_flight].comes_first();
-        const HappenedAtEnd end(ended), worked(places[n % in_flight]);
+        slots[n % in_flight].comes_first();
+        const HappenedAtEnd end(ended), worked(slots[n % in_flight]);
         throw_if(stop);
         const StopScope scope(stop);
         calls.work(n, n % in_flight);
         return n;
     });
     const auto finish = tbb::make_filter<std::uint32_t, void>(tbb::filter_mode::serial_in_order, [&](std::uint32_t n) {
-        places[n % in_flight].comes_first();
+        slots[n % in_flight].comes_first();
         finished.comes_first();
-        const HappenedAtEnd end(ended), last(finished), worked(places[n % in_flight]);
+        const HappenedAtEnd end(ended), last(finished), worked(slots[n % in_flight]);
         const StopScope scope(stop);
         calls.finish(n, n % in_flight);
     });

@@ -13,7 +13,7 @@ namespace regionmesh {
 oneapi::tbb::task_arena& arena_of(std::uint32_t threads);
 
 /// While it lives, loops that this thread begins run in arenas apart. For a thread whose results are waited for by work
-/// in the shared arenas: there it could wait for a place that this work holds, or begin more of this work itself, and
+/// in the shared arenas: there it could wait for a slot that this work holds, or begin more of this work itself, and
 /// would never go on.
 class ArenasApart {
 public:

@@ -90,8 +90,9 @@ Kriging::Kriging(std::vector<HeightSample> samples, double near, std::uint32_t t
 }
 
 void Kriging::merge_near_samples(double near) {
-    const auto place = [](const HeightSample& s) { return std::tuple(s.x, s.y, s.z); };
-    std::sort(samples_.begin(), samples_.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    const auto position = [](const HeightSample& s) { return std::tuple(s.x, s.y, s.z); };
+    std::sort(samples_.begin(), samples_.end(),
+              [&](const auto& a, const auto& b) { return position(a) < position(b); });
     std::vector<HeightSample> kept;
     std::vector<double> counts;
     for (const HeightSample& sample : samples_) {

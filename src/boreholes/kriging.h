@@ -1,4 +1,4 @@
-// Heights between scattered places: ordinary kriging in the plane.
+// Heights between scattered positions: ordinary kriging in the plane.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace regionmesh::formats {
 
-/// A height at a place.
+/// A height at a position.
 struct HeightSample {
     double x = 0, y = 0, z = 0;
 };
@@ -16,9 +16,9 @@ struct HeightSample {
 /// below: the time to solve for the weights grows with the cube of their number.
 inline constexpr std::size_t kMostHoles = 3000;
 
-/// Below this distance two places count as one: a hundredth of the median distance from a place to its third neighbour,
-/// which neither pairs nor places far off decide. The slope between two holes side by side would otherwise tilt the
-/// surface far around them.
+/// Below this distance two positions count as one: a hundredth of the median distance from a position to its third
+/// neighbour, which neither pairs nor positions far off decide. The slope between two holes side by side would
+/// otherwise tilt the surface far around them.
 double near_distance(const std::vector<HeightSample>& samples);
 
 /// The surface through the samples with the least variance of its error, for the power variogram r^1.5. It has no peaks

@@ -20,16 +20,16 @@ bool are_near(const HeightSample& a, const HeightSample& b, double near) {
 }
 
 /// The tightest bound of each kind at one position; none where a sample has the height. Kriging takes the mean of
-/// samples at one place: a mean with a bound would satisfy neither.
+/// samples at one position: a mean with a bound would satisfy neither.
 std::vector<Contact> tightest(const std::vector<Contact>& bounds, const std::vector<HeightSample>& samples,
                               double near) {
     std::vector<Contact> kept;
     for (const Contact& bound : bounds) {
-        const HeightSample place{bound.x, bound.y, bound.z};
-        if (std::ranges::any_of(samples, [&](const HeightSample& sample) { return are_near(sample, place, near); }))
+        const HeightSample position{bound.x, bound.y, bound.z};
+        if (std::ranges::any_of(samples, [&](const HeightSample& sample) { return are_near(sample, position, near); }))
             continue;
         const auto same = std::ranges::find_if(kept, [&](const Contact& other) {
-            return other.kind == bound.kind && are_near({other.x, other.y, other.z}, place, near);
+            return other.kind == bound.kind && are_near({other.x, other.y, other.z}, position, near);
         });
         if (same == kept.end())
             kept.push_back(bound);
@@ -50,9 +50,9 @@ Kriging base_of(const std::vector<Contact>& contacts, const Ground& ground, std:
         else
             bounds.push_back(contact);
     }
-    std::vector<HeightSample> places = samples;
-    for (const Contact& bound : bounds) places.push_back({bound.x, bound.y, bound.z});
-    const double near = near_distance(places);
+    std::vector<HeightSample> positions = samples;
+    for (const Contact& bound : bounds) positions.push_back({bound.x, bound.y, bound.z});
+    const double near = near_distance(positions);
     bounds = tightest(bounds, samples, near);
     if (samples.empty())
         for (const Contact& bound : std::exchange(bounds, {})) samples.push_back({bound.x, bound.y, bound.z});

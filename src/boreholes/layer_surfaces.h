@@ -25,7 +25,7 @@ struct ColumnGrid {
 struct LayerSurfaces {
     std::vector<std::vector<double>> heights;
 
-    /// The number of surfaces below which a place of column n lies: 0 is above the ground, 1 the youngest unit.
+    /// The number of surfaces below which a position of column n lies: 0 is above the ground, 1 the youngest unit.
     std::size_t layer_of(std::size_t column, double z) const;
 };
 
@@ -50,7 +50,7 @@ private:
 std::vector<double> heights_of(const Ground& ground, const ColumnGrid& grid, std::uint32_t threads);
 
 /// Interpolates the bases between the contacts, below the heights of the ground at the columns. A contact that only
-/// bounds a base takes part where the base interpolated without it is out of bounds; of the bounds at one place, the
+/// bounds a base takes part where the base interpolated without it is out of bounds; of the bounds at one position, the
 /// tightest of each kind, unless another hole there has the contact. `threads` as in parallel_for().
 LayerSurfaces interpolate(const LayerOrder& order, const Ground& ground, std::vector<double> heights,
                           const ColumnGrid& grid, std::uint32_t threads);

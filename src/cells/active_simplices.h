@@ -26,7 +26,7 @@ public:
         Note note;
     };
 
-    /// The place of the note of a simplex; a default note where there was none.
+    /// Index of the simplex, for its note; a default note where there was none.
     std::uint32_t find_or_add(const SimplexKey& corners, bool* is_new = nullptr) {
         if (2 * (used_ + 1) > table_.size()) grow();
         std::size_t at = first_slot(corners);
@@ -40,28 +40,28 @@ public:
         if (is_new) *is_new = true;
         return table_[at] = add(corners);
     }
-    Simplex& operator[](std::uint32_t place) { return simplices_[place]; }
+    Simplex& operator[](std::uint32_t item) { return simplices_[item]; }
 
     /// Calls visit(simplex) for all whose lowest corner is `rank`; the visit may add others, of higher corners.
     template <class Visit>
     void for_lowest(std::uint32_t rank, Visit&& visit) {
         if (rank >= heads_.end()) return;
-        for (std::uint32_t place = heads_[rank]; place != kNone;) {
-            const std::uint32_t next = simplices_[place].next;
-            visit(place);
-            place = next;
+        for (std::uint32_t item = heads_[rank]; item != kNone;) {
+            const std::uint32_t next = simplices_[item].next;
+            visit(item);
+            item = next;
         }
     }
 
     /// Releases all simplices whose lowest corner is `rank`. Ranks are released in order.
     void drop(std::uint32_t rank) {
         if (rank >= heads_.end()) heads_.grow(rank + 1, kNone);
-        for (std::uint32_t place = heads_[rank]; place != kNone;) {
-            const std::uint32_t next = simplices_[place].next;
-            erase(place);
-            simplices_[place].next = free_;
-            free_ = place;
-            place = next;
+        for (std::uint32_t item = heads_[rank]; item != kNone;) {
+            const std::uint32_t next = simplices_[item].next;
+            erase(item);
+            simplices_[item].next = free_;
+            free_ = item;
+            item = next;
         }
         heads_.drop_before(rank + 1);
     }
@@ -85,24 +85,24 @@ private:
     }
 
     std::uint32_t add(const SimplexKey& corners) {
-        std::uint32_t place = free_;
-        if (place == kNone) {
-            place = static_cast<std::uint32_t>(simplices_.size());
+        std::uint32_t item = free_;
+        if (item == kNone) {
+            item = static_cast<std::uint32_t>(simplices_.size());
             simplices_.emplace_back();
         } else {
-            free_ = simplices_[place].next;
+            free_ = simplices_[item].next;
         }
         if (corners[0] >= heads_.end()) heads_.grow(corners[0] + 1, kNone);
-        simplices_[place] = {corners, heads_[corners[0]], Note{}};
-        heads_[corners[0]] = place;
+        simplices_[item] = {corners, heads_[corners[0]], Note{}};
+        heads_[corners[0]] = item;
         ++used_;
-        return place;
+        return item;
     }
 
     /// Moves up the entries behind it, so that no gap separates them from their first slot.
-    void erase(std::uint32_t place) {
-        std::size_t gap = first_slot(simplices_[place].corners);
-        while (table_[gap] != place) gap = (gap + 1) & mask();
+    void erase(std::uint32_t item) {
+        std::size_t gap = first_slot(simplices_[item].corners);
+        while (table_[gap] != item) gap = (gap + 1) & mask();
         for (std::size_t at = (gap + 1) & mask(); table_[at] != kNone; at = (at + 1) & mask()) {
             const std::size_t first = first_slot(simplices_[table_[at]].corners);
             if (((at - first) & mask()) < ((at - gap) & mask())) continue;
@@ -116,15 +116,15 @@ private:
     void grow() {
         std::vector<std::uint32_t> old(std::max<std::size_t>(table_.size() * 2, 1024), kNone);
         old.swap(table_);
-        for (std::uint32_t place : old) {
-            if (place == kNone) continue;
-            std::size_t at = first_slot(simplices_[place].corners);
+        for (std::uint32_t item : old) {
+            if (item == kNone) continue;
+            std::size_t at = first_slot(simplices_[item].corners);
             while (table_[at] != kNone) at = (at + 1) & mask();
-            table_[at] = place;
+            table_[at] = item;
         }
     }
 
-    std::vector<std::uint32_t> table_;  // places, a power of two of them
+    std::vector<std::uint32_t> table_;  // items, a power of two of them
     std::vector<Simplex> simplices_;
     std::uint32_t free_ = kNone;
     std::uint32_t used_ = 0;

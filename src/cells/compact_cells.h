@@ -13,14 +13,14 @@
 
 namespace regionmesh {
 
-/// The table is text: faces of four letters each, three vertices (places in kCellSimplices) and, as 8 * first + second,
-/// the nodes whose labels the face separates. The faces of a class of partitions end with kEndOfClass.
+/// The table is text: faces of four letters each, three vertices (indices in kCellSimplices) and, as 8 * first +
+/// second, the nodes whose labels the face separates. The faces of a class of partitions end with kEndOfClass.
 inline constexpr std::string_view kCompactAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-";
 inline constexpr char kEndOfClass = ' ';
 
 /// A face in a cell; its normal points from the label of node `first` to that of node `second`.
 struct CompactFace {
-    std::array<std::uint8_t, 3> vertices;  // places in kCellSimplices
+    std::array<std::uint8_t, 3> vertices;  // indices in kCellSimplices
     std::uint8_t first, second;            // nodes
 };
 

@@ -126,10 +126,10 @@ void PartNesting::meet(const Mesh& mesh, FaceId f, Ray& ray) {
     // The other faces of the island lie behind the start of the ray.
     if (std::ranges::count(mesh.corners(f), ray.from) > 0) {
         for (const Label label : mesh[f].labels)
-            if (const auto place = std::ranges::find_if(
+            if (const auto free_slot = std::ranges::find_if(
                     ray.at_start, [&](Label there) { return there == label || there == kNoLabel; });
-                place != ray.at_start.end())
-                *place = label;
+                free_slot != ray.at_start.end())
+                *free_slot = label;
         return;
     }
     const NestingHit hit = nesting_hit(mesh, f, ray.from);

@@ -1,4 +1,4 @@
-// The place of a violation and the labels that meet there.
+// The position of a violation and the labels that meet there.
 #include <algorithm>
 #include <charconv>
 

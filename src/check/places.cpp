@@ -1,4 +1,4 @@
-// Vertices at the same place (P 3.6 d).
+// Vertices at the same position (P 3.6 d).
 #include <algorithm>
 #include <cstring>
 #include <tuple>
@@ -22,7 +22,7 @@ std::uint32_t hash_of(Vec3 p) {
     return static_cast<std::uint32_t>(hash);
 }
 
-/// All vertices; those at the same place are consecutive.
+/// All vertices; those at the same position are consecutive.
 std::vector<KeyedIndex> sort_by_hash(const Mesh& mesh, std::uint32_t threads) {
     std::vector<KeyedIndex> sorted;
     sorted.reserve(mesh.vertex_count());

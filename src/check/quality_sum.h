@@ -19,7 +19,7 @@ struct TwoFaces {
     Double2 quality_product;           // QualityTerms::product
     Double2 size2;                     // the longest edge, squared
     std::array<Double2, 3> cosines{};  // cosine at each corner, times the lengths of both edges
-    std::array<Double2, 3> places{};   // bins of the angles (see QualitySum::Angle), if twice_area is the sine of each
+    std::array<Double2, 3> keys{};     // bins of the angles (see QualitySum::Angle), if twice_area is the sine of each
     // Bit n is set if face n is neither thin nor tiny: twice_area then serves as the sine of each angle.
     unsigned fat = 0;
 
@@ -35,9 +35,9 @@ public:
     QualityReport report() const;
 
 private:
-    /// The sine and cosine of an angle, times a common factor, and its place from 1 at 0 degrees to -1 at 180.
+    /// The sine and cosine of an angle, times a common factor, and its key from 1 at 0 degrees to -1 at 180.
     struct Angle {
-        double sine = 0, cosine = 0, place = 0;
+        double sine = 0, cosine = 0, key = 0;
     };
 
     void add_angle(const Angle& angle);

@@ -21,7 +21,7 @@ struct FloatBox {
     FloatPoint low, high;
 };
 
-/// Eight boxes side by side; empty places are infinitely far.
+/// Eight boxes side by side; empty slots are infinitely far.
 struct alignas(32) EightBoxes {
     static constexpr std::uint32_t kCount = 8;
 
@@ -78,9 +78,9 @@ inline std::uint32_t near_boxes(const EightBoxes& boxes, const FloatPoint& p, fl
     std::uint32_t count = 0;
     for (unsigned mask = squared_distances(boxes, p, limit, squared); mask; mask &= mask - 1) {
         const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
-        std::uint32_t place = count++;
-        for (; place > 0 && found[place - 1].squared > squared[lane]; --place) found[place] = found[place - 1];
-        found[place] = {squared[lane], lane};
+        std::uint32_t slot = count++;
+        for (; slot > 0 && found[slot - 1].squared > squared[lane]; --slot) found[slot] = found[slot - 1];
+        found[slot] = {squared[lane], lane};
     }
     return count;
 }

@@ -1,4 +1,4 @@
-// Hilbert's curve through a box: places near each other along it are near in space; it has no jumps, unlike a Morton
+// Hilbert's curve through a box: positions near each other along it are near in space; it has no jumps, unlike a Morton
 // curve.
 #pragma once
 
@@ -12,8 +12,8 @@ namespace regionmesh {
 
 inline constexpr int kHilbertBits = 10;  // per axis
 
-/// Place along the curve of a cell in a grid of 2^kHilbertBits cells per axis (Skilling 2004, "Programming the Hilbert
-/// curve").
+/// Position along the curve of a cell in a grid of 2^kHilbertBits cells per axis (Skilling 2004, "Programming the
+/// Hilbert curve").
 inline std::uint32_t hilbert_key(std::array<std::uint32_t, 3> x) {
     constexpr std::uint32_t kTop = 1u << (kHilbertBits - 1);
     for (std::uint32_t q = kTop; q > 1; q >>= 1) {

@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeastSamples = 100;
 constexpr std::uint64_t kChunk = 4096;  // samples per task
 
-/// Random numbers in [0, 1), three per sample: one for the place along the stratum, two for that in the simplex.
+/// Random numbers in [0, 1), three per sample: one for the position along the stratum, two for that in the simplex.
 enum class Coordinate { kAlong, kFirst, kSecond };
 double unit(std::uint64_t sample, Coordinate coordinate) {
     return static_cast<double>(mix64(4 * sample + static_cast<std::uint64_t>(coordinate)) >> 11) * 0x1p-53;
@@ -74,7 +74,7 @@ void SamplePoints::add(const SortedStrata& part, std::span<const std::uint32_t> 
         const double before = before_[number], after = before + part.measure(part.strata[stratum]);
         const auto left = std::views::iota(next_[number], samples_.end(number));
         const auto is_before_end = [&](std::uint64_t sample) { return samples_.along(sample, number) < after; };
-        // The last part has all that is left: the place of a sample may be rounded to the end.
+        // The last part has all that is left: the position of a sample may be rounded to the end.
         const std::uint64_t end = after < samples_.measure(number) ? *std::ranges::partition_point(left, is_before_end)
                                                                    : samples_.end(number);
         for (std::uint64_t& first = next_[number]; first < end; first = std::min(end, first + kChunk))

@@ -53,7 +53,7 @@ void order_points(const Mesh& mesh, Simplex& simplex) {
     if (b == c) std::swap(a, c);  // a face that repeats a vertex must not be taken for an edge
 }
 
-/// Simplices with the same place on the curve, in the order of their points.
+/// Simplices with the same position on the curve, in the order of their points.
 void order_ties(const Mesh& mesh, const std::vector<Simplex>& simplices, std::vector<KeyedIndex>& order) {
     const auto by_points = [&](const KeyedIndex& a, const KeyedIndex& b) {
         return std::ranges::lexicographical_compare(

@@ -26,7 +26,7 @@ bool are_apart(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q) {
 bool meet_outside_shared(const PlacedFace& f, const PlacedFace& g) {
     const auto &p = f.at, &q = g.at;
     if (!boxes_overlap(p, q)) return false;
-    std::array<int, 3> in_g{-1, -1, -1};  // the place of each corner of f in g
+    std::array<int, 3> in_g{-1, -1, -1};  // the index of each corner of f in g
     int shared = 0, own = -1, common = -1;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j)

@@ -217,9 +217,9 @@ void GridTree::visit_pairs(std::uint32_t first_part, std::uint32_t end_part,
 }
 
 bool GridTree::is_spatial() const {
-    constexpr std::uint32_t kParts = 32, kPlaces = 512, kTests = 24;  // parts sampled, places per part, tests per place
+    constexpr std::uint32_t kParts = 32, kItems = 512, kTests = 24;  // parts sampled, items per part, tests per item
     const std::uint32_t step = std::max(part_count() / kParts, 1u);
-    std::uint64_t left = std::uint64_t{kTests} * kPlaces * std::min(part_count(), kParts);
+    std::uint64_t left = std::uint64_t{kTests} * kItems * std::min(part_count(), kParts);
     PairSearch search;
     for (std::uint32_t part = 0; part < part_count(); part += step) {
         begin_part(part, search);
@@ -264,7 +264,7 @@ void GridTree::begin_part(std::uint32_t part, PairSearch& search) const {
     }
 }
 
-/// All pairs of a place in the part that was begun and a place in the other.
+/// All pairs of an item in the part that was begun and an item in the other.
 void GridTree::find_pairs(std::uint32_t other, PairSearch& search) const {
     search.other = other;
     search.pairs.end_at(PairList::write(search.pairs.clear(1), 0, 0, 1));
@@ -288,7 +288,7 @@ void GridTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
         to = PairList::write(to, b, a * kFan, mask);
     }
     lanes.end_at(to);
-    // Each pair once; a place forms no pair with itself, but a group does.
+    // Each pair once; an item forms no pair with itself, but a group does.
     const bool is_same_part = part == other;
     const unsigned later = level == 0 ? 0xFEu : 0xFFu;
     to = pairs.clear(lanes.size() * kFan);
@@ -300,15 +300,15 @@ void GridTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
     pairs.end_at(to);
 }
 
-void GridTree::set(std::uint32_t place, const GridBox& box) {
-    levels_[0][place / kFan].put(place % kFan, box);
+void GridTree::set(std::uint32_t item, const GridBox& box) {
+    levels_[0][item / kFan].put(item % kFan, box);
     for (std::size_t level = 1; level < levels_.size(); ++level) {
-        place /= kFan;
-        if (!extend(levels_[level][place / kFan], place % kFan, box)) return;
+        item /= kFan;
+        if (!extend(levels_[level][item / kFan], item % kFan, box)) return;
     }
 }
 
-void GridTree::remove(std::uint32_t place) { levels_[0][place / kFan].put(place % kFan, kNothing); }
+void GridTree::remove(std::uint32_t item) { levels_[0][item / kFan].put(item % kFan, kNothing); }
 
 std::size_t GridTree::bytes() const {
     std::size_t sum = 0;

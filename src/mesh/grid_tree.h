@@ -29,8 +29,8 @@ constexpr SetBits make_set_bits() {
 }
 inline constexpr SetBits kSetBits = make_set_bits();
 
-/// A tree of degree 8 over the places 0 .. count - 1 of a list of boxes; fast if their order is spatial. Boxes are
-/// rounded outward to 1/65500 of the whole extent, 2 bytes per coordinate: 14 bytes per place in total.
+/// A tree of degree 8 over the items 0 .. count - 1 of a list of boxes; fast if their order is spatial. Boxes are
+/// rounded outward to 1/65500 of the whole extent, 2 bytes per coordinate: 14 bytes per item in total.
 class GridTree {
 public:
     static constexpr std::uint32_t kFan = 8;
@@ -66,7 +66,7 @@ public:
         unsigned meeting(const GridBox& box) const;
     };
 
-    /// Rebuilds the tree; releases the old boxes first. box_of(n) returns the box at place n, or an empty box; it is
+    /// Rebuilds the tree; releases the old boxes first. box_of(n) returns the box at item n, or an empty box; it is
     /// called on several threads. `extent` is the bounding box of all.
     template <class BoxOf>
     void build(std::uint32_t count, const Box& extent, std::uint32_t threads, BoxOf&& box_of);
@@ -75,12 +75,12 @@ public:
     std::array<GridBox, 2> outward(const Lanes3<Double2>& low, const Lanes3<Double2>& high) const;
     GridBox outward(const Box& box) const { return outward(both(box.low), both(box.high))[0]; }
 
-    /// Changes the box at a place. The boxes above it grow and never shrink.
-    void set(std::uint32_t place, const GridBox& box);
-    /// Empties the place.
-    void remove(std::uint32_t place);
+    /// Changes the box at an item. The boxes above it grow and never shrink.
+    void set(std::uint32_t item, const GridBox& box);
+    /// Empties the item.
+    void remove(std::uint32_t item);
 
-    /// Calls visit(span of places) until all places whose rounded box meets `box` have been visited, in order, with
+    /// Calls visit(span of items) until all items whose rounded box meets `box` have been visited, in order, with
     /// at most kMostAtOnce at once. A visit that returns false ends the search.
     template <class Visit>
     void search(const Box& box, Visit&& visit) const {
@@ -89,7 +89,7 @@ public:
     }
     static constexpr std::uint32_t kMostAtOnce = 256;
 
-    /// Two places in two parts, each counted from the first place of its part, in one number.
+    /// Two items in two parts, each counted from the first item of its part, in one number.
     class Pair {
     public:
         Pair() = default;
@@ -101,23 +101,23 @@ public:
         friend class GridTree;
         std::uint32_t both_;
     };
-    /// Pairs of a place in one part and a place in that part or a later one: first_m + pair.m() < first_n + pair.n().
+    /// Pairs of an item in one part and an item in that part or a later one: first_m + pair.m() < first_n + pair.n().
     struct PartPairs {
         std::uint32_t first_m, first_n;
         std::span<const Pair> pairs;
     };
-    /// The number of parts into which the pairs of places with meeting boxes are divided, by m.
+    /// The number of parts into which the pairs of items with meeting boxes are divided, by m.
     std::uint32_t part_count() const { return levels_[part_level()].size(); }
     /// Calls visit(PartPairs) until all pairs of these parts have been visited, with at most 2^18 at once.
     void visit_pairs(std::uint32_t first_part, std::uint32_t end_part,
                      const std::function<void(const PartPairs&)>& visit) const;
-    /// Is the order of the places spatial enough to find pairs quickly? Estimated from a sample.
+    /// Is the order of the items spatial enough to find pairs quickly? Estimated from a sample.
     bool is_spatial() const;
 
     std::size_t bytes() const;
 
 private:
-    /// A group is eight boxes: group g of level 0 holds places 8 g .. 8 g + 7; group g of a higher level holds the
+    /// A group is eight boxes: group g of level 0 holds items 8 g .. 8 g + 7; group g of a higher level holds the
     /// bounding boxes of groups 8 g .. 8 g + 7 of the level below.
     struct Entry {
         std::uint32_t level, group;
@@ -143,7 +143,7 @@ private:
     bool search_below(std::uint32_t level, std::span<const std::uint32_t> groups, const Boxes& wanted,
                       Visit& visit) const;
     static bool extend(Boxes& boxes, std::uint32_t lane, const GridBox& box);
-    /// A part is a group of this level: 8^3 places.
+    /// A part is a group of this level: 8^3 items.
     std::uint32_t part_level() const { return std::min<std::uint32_t>(2, root().level); }
     std::vector<std::uint32_t> parts_near(std::uint32_t part) const;
     void begin_part(std::uint32_t part, PairSearch& search) const;
@@ -164,9 +164,9 @@ void GridTree::build(std::uint32_t count, const Box& extent, std::uint32_t threa
     start(count, extent);
     for_each_index(levels_[0].size(), kBuildGroups, threads, [&](std::uint32_t g) {
         Boxes boxes = Boxes::none();
-        for (std::uint32_t place = g * kFan; place < std::min(count, (g + 1) * kFan); ++place) {
-            const Box box = box_of(place);
-            if (!box.is_empty()) boxes.put(place % kFan, outward(box));
+        for (std::uint32_t item = g * kFan; item < std::min(count, (g + 1) * kFan); ++item) {
+            const Box box = box_of(item);
+            if (!box.is_empty()) boxes.put(item % kFan, outward(box));
         }
         levels_[0][g] = boxes;
     });

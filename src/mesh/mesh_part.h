@@ -14,13 +14,13 @@
 namespace regionmesh {
 
 /// The part of each vertex and each face. Each belongs to one. The mesh has all faces whose boxes reach into
-/// the place of the part.
+/// the space of the part.
 struct MeshPart {
     std::uint32_t number = 0;
     std::vector<std::uint32_t> of_vertex, of_face;
     std::vector<Vec3> low_of_face;                    // the low corner of its box
     std::vector<std::uint64_t> key_of_face;           // below 2^63, the same in all parts that have the face
-    std::function<std::uint32_t(Vec3)> at = nullptr;  // the part whose place has a point
+    std::function<std::uint32_t(Vec3)> at = nullptr;  // the part whose space has a point
 
     bool has(VertexId v) const { return of_vertex[index(v)] == number; }
     bool has(FaceId f) const { return of_face[index(f)] == number; }

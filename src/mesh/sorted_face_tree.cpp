@@ -36,12 +36,12 @@ SortedFaceTree::SortedFaceTree(std::uint32_t face_end, const Box& extent, const 
 
 template <class BoxOf>
 void SortedFaceTree::build(std::uint32_t face_end, const Box& extent, const BoxOf& box_of, std::uint32_t threads) {
-    boxes_.build(face_end, extent, threads, [&](std::uint32_t place) { return box_of(FaceId{place}); });
+    boxes_.build(face_end, extent, threads, [&](std::uint32_t n) { return box_of(FaceId{n}); });
     if (boxes_.is_spatial()) return;
     boxes_ = GridTree();
     faces_ = along_curve(face_end, box_of, extent, threads);
     boxes_.build(static_cast<std::uint32_t>(faces_.size()), extent, threads,
-                 [&](std::uint32_t place) { return box_of(faces_[place]); });
+                 [&](std::uint32_t n) { return box_of(faces_[n]); });
 }
 
 }  // namespace regionmesh

@@ -27,15 +27,15 @@ public:
     /// the search.
     template <class Visit>
     void search(const Box& box, Visit&& visit) const {
-        boxes_.search(box, [&](std::span<const std::uint32_t> places) {
-            return std::all_of(places.begin(), places.end(), [&](std::uint32_t place) { return visit(face(place)); });
+        boxes_.search(box, [&](std::span<const std::uint32_t> items) {
+            return std::all_of(items.begin(), items.end(), [&](std::uint32_t item) { return visit(face(item)); });
         });
     }
 
     std::size_t bytes() const { return boxes_.bytes() + faces_.capacity() * sizeof(FaceId); }
     /// Tree over indices in the sorted order: its pairs include every two faces that meet.
     const GridTree& boxes() const { return boxes_; }
-    FaceId face(std::uint32_t place) const { return faces_.empty() ? FaceId{place} : faces_[place]; }
+    FaceId face(std::uint32_t item) const { return faces_.empty() ? FaceId{item} : faces_[item]; }
 
 private:
     template <class BoxOf>

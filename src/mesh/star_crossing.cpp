@@ -49,7 +49,7 @@ void StarCrossing::gather_labels() {
     }
 }
 
-/// Do the faces of the label form a closed or open fan without overlap? A page is named by its place, doubled, plus its
+/// Do the faces of the label form a closed or open fan without overlap? A page is named by its index, doubled, plus its
 /// side.
 bool StarCrossing::is_fan_simple(Label label) {
     fan_.clear();

@@ -53,9 +53,9 @@ std::vector<bool> Bodies::list_shells() {
     for (std::uint32_t& start : shell_starts_) start = std::exchange(end, end + start);
     shell_starts_.push_back(end);
     sides_.resize(end);
-    std::vector<std::uint32_t> places = shell_starts_;
+    std::vector<std::uint32_t> next = shell_starts_;
     for (FaceSide side = 0; side < shells_.size(); ++side)
-        if (shells_[side] != kNone) sides_[places[shells_[side]]++] = side;
+        if (shells_[side] != kNone) sides_[next[shells_[side]]++] = side;
     return is_open;
 }
 

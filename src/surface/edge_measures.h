@@ -33,7 +33,7 @@ struct LineMeasures {
     std::vector<double> angle_length;
 };
 
-/// Keys are places in the order of files (FileView::rank), ascending; the whole exterior is kFirstExterior.
+/// Keys are ranks in the order of files (FileView::rank), ascending; the whole exterior is kFirstExterior.
 struct EdgeMeasures {
     std::map<std::array<std::uint32_t, 2>, InterfaceMeasures> interfaces;
     std::map<std::vector<std::uint32_t>, LineMeasures> lines;

@@ -36,7 +36,7 @@ public:
     const LabelColours& given_colours() const { return *colours_; }
     /// `colours` must live as long as the view.
     void set_given_colours(const LabelColours& colours) { colours_ = &colours; }
-    /// The colours of all regions, by place, where the mesh is a part of the model that decides them; none by default.
+    /// The colours of all regions, by rank, where the mesh is a part of the model that decides them; none by default.
     const std::vector<std::uint32_t>& colours_of_whole() const { return colours_of_whole_; }
     void set_colours_of_whole(std::vector<std::uint32_t> colours) { colours_of_whole_ = std::move(colours); }
     InputLabel exterior_label() const { return exterior_label_; }
@@ -49,11 +49,11 @@ public:
     bool is_turned(FaceId f) const { return rank(mesh_[f].labels[0]) > rank(mesh_[f].labels[1]); }
     /// The number of a vertex in the file.
     std::uint32_t number(VertexId v) const { return numbers_.empty() ? index(v) : numbers_[index(v)]; }
-    /// The place of a dense label in the order of files; all exteriors have the same place.
+    /// The rank of a dense label in the order of files; all exteriors have the same rank.
     std::uint32_t rank(Label label) const { return is_exterior(label) ? kFirstExterior : ranks_[label]; }
     /// Labels in the order of files, background last.
     std::vector<Label> ordered_labels() const;
-    /// The number of places that regions have; those of background follow.
+    /// The number of ranks that regions have; those of background follow.
     std::uint32_t region_ranks() const { return region_ranks_; }
     bool is_background(Label label) const { return rank(label) >= region_ranks_; }
     /// Text of the input label, with its signedness.

@@ -25,7 +25,7 @@ public:
     /// Looks at some of the edges of lines to tell whether the surfaces are rough: farther faces count then.
     void look_at(std::span<const std::array<VertexId, 2>> edges);
 
-    /// The dihedral angles of labels at an edge, by their places in the order of files. None where a label has not two
+    /// The dihedral angles of labels at an edge, by their ranks in the order of files. None where a label has not two
     /// faces there, or they have no area. If all have one they add up to a full turn; noise may make a small one
     /// negative, where it exchanges interfaces round the edge.
     const std::vector<std::optional<double>>& at_edge(VertexId v, VertexId w, std::span<const std::uint32_t> ranks);

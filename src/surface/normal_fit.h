@@ -1,4 +1,4 @@
-// The normal that an interface has at a place, from faces near it.
+// The normal that an interface has at a position, from faces near it.
 #pragma once
 
 #include <span>

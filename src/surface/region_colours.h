@@ -11,7 +11,7 @@
 
 namespace regionmesh {
 
-/// A colour as 0xRRGGBB (sRGB) for each place of FileView::ordered_labels(): the given one, or else one of a fixed
+/// A colour as 0xRRGGBB (sRGB) for each region of FileView::ordered_labels(): the given one, or else one of a fixed
 /// palette. There regions with a common interface get different colours, as far apart as possible for normal,
 /// protanopic and deuteranopic eyes. Depends on the mesh, the labels and the given colours only.
 std::vector<std::uint32_t> region_colours(const FileView& view);
