@@ -119,7 +119,7 @@ std::string joined(const std::vector<std::string>& texts) {
 
 OptionValues values_in(const std::string& path, const CommandSpec& command) {
     OptionValues values;
-    std::set<std::pair<std::string, std::string>> names;  // by table; that of the command is ""
+    std::set<std::pair<std::string, std::string>> names;  // key: table; that of the command is ""
     for (const CLI::ConfigItem& item : items_in(path)) {
         if (item.name == "++" || item.name == "--") continue;  // start and end of a table
         const std::string table = item.parents.empty() ? "" : item.parents.front();

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kOfPrecomputed{"precomputed", "levels", "sharded"};
 constexpr std::array<std::string_view, 1> kOfFiles{"per-region"};
-constexpr std::array<std::string_view, 1> kNotOfPieces{"units"};  // of a .pvtp
+constexpr std::array<std::string_view, 1> kNotOfPieces{"units"};  // options that a .pvtp does not take
 
 /// Throws Error(kUsage) for options of a folder .precomputed with another output, and the other way round. A model that
 /// is missing is said first.

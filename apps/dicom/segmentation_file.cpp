@@ -28,7 +28,7 @@ namespace {
 using helper::Refusal;
 
 constexpr const char* kUnreadable = "its samples cannot be read";
-constexpr std::uint64_t kMostGrowth = 64;  // of samples in RLE: two bytes become 128
+constexpr std::uint64_t kMostGrowth = 64;  // most growth of samples in RLE: two bytes become 128
 constexpr Uint32 kMostLoaded = 1 << 16;    // bytes of a value; longer ones stay in the file where it allows
 
 struct KnownTag {

@@ -24,7 +24,7 @@ struct Description {
     std::uint32_t rows = 0, columns = 0, bits = 0;  // bits of a sample as stored: 1, 8, 16
     std::uint64_t frames = 0;
     std::int64_t padding = -1;     // PixelPaddingValue; -1 for none
-    std::uint64_t held_bytes = 0;  // of samples, in the memory of this process
+    std::uint64_t held_bytes = 0;  // held bytes of samples, in the memory of this process
     std::string obstacle = {};     // why samples cannot be read, if so
     std::vector<Segment> segments = {};
 };

@@ -12,9 +12,9 @@ namespace {
 
 using namespace formats;  // Hdf5Handle and its kin
 
-constexpr hssize_t kMaxNumbers = 16;         // in an attribute, or in a dataset whose values are reported
+constexpr hssize_t kMaxNumbers = 16;         // max numbers in an attribute, or in a dataset whose values are reported
 constexpr std::size_t kMaxText = 64 << 10;   // bytes of an attribute
-constexpr std::size_t kMaxEntries = 100000;  // of a file
+constexpr std::size_t kMaxEntries = 100000;  // max entries of a file
 constexpr int kMaxDepth = 32;                // groups can contain themselves
 constexpr int kMaxAxes = 32;                 // H5S_MAX_RANK
 

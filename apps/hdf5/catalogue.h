@@ -54,7 +54,7 @@ private:
     std::string name_;
     formats::Hdf5Silence silence_;
     formats::Hdf5File file_;
-    std::string open_path_;  // of dataset_
+    std::string open_path_;  // open path of dataset_
     formats::Hdf5Dataset dataset_;
 };
 

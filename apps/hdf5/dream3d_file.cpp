@@ -19,7 +19,7 @@ using namespace formats;
 
 constexpr std::array<char, 8> kMesh{'R', 'M', 'H', '5', 'M', 'S', 'H', '1'};
 constexpr hsize_t kRows = 1 << 16;        // per write
-constexpr std::size_t kGrowth = 1 << 22;  // of the file in memory
+constexpr std::size_t kGrowth = 1 << 22;  // growth of the file in memory
 
 template <class T>
 struct ArrayType;

@@ -19,13 +19,13 @@ namespace {
 using Json = nlohmann::json;
 using Magic = std::array<char, 8>;
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;  // of address space, in addition to that at the start
+constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;  // most address space, beyond that at the start
 constexpr std::uint64_t kMostRequest = std::uint64_t{1} << 20;
 
 /// In front of each message, in either direction.
 struct Head {
     Magic magic;
-    std::uint64_t size;  // of the message, in bytes
+    std::uint64_t size;  // size of the message, in bytes
 };
 
 Magic magic_of(const Program& program, std::string_view kind) {

@@ -57,12 +57,12 @@ LabelArray label_array(const T* data, const ArraySize& size) {
 struct ArrayOptions {
     Vec3 spacing{1, 1, 1};
     Vec3 origin{0, 0, 0};
-    std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};  // as in Lattice
-    std::optional<double> metres = {};                           // in a unit of length: 1e-15 to 1e6
+    std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};  // direction as in Lattice
+    std::optional<double> metres = {};                           // metres in a unit of length: 1e-15 to 1e6
     Space space = Space::kUnknown;
     SweepChoice sweep = SweepChoice::kAuto;
     LabelNames names = {};
-    std::string name = "array";  // of the array in messages
+    std::string name = "array";  // name of the array in messages
 };
 
 /// A reader of the array's sections. The array must outlive it and stay unchanged; the reader holds no copy, so

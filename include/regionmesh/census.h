@@ -15,8 +15,8 @@ namespace regionmesh {
 
 struct Census {
     LabelTable labels;
-    std::vector<std::uint64_t> samples;      // by dense label
-    std::uint64_t face_count = 0;            // of the unsimplified mesh
+    std::vector<std::uint64_t> samples;      // one per dense label
+    std::uint64_t face_count = 0;            // face count of the unsimplified mesh
     std::vector<std::uint64_t> strip_faces;  // the same by strip
     LabelOracle oracle;
 };
@@ -24,18 +24,18 @@ struct Census {
 struct TetrahedronCensus {
     LabelTable labels;
     std::uint64_t point_count = 0, tetrahedron_count = 0;
-    std::vector<std::uint64_t> samples;  // by dense label: points, or tetrahedra if these have the labels
+    std::vector<std::uint64_t> samples;  // one per dense label: points, or tetrahedra if these have the labels
     double spacing = 0;                  // edge of a cube with the volume of six mean tetrahedra, z scaled
     Sweep sweep;
-    std::uint64_t face_count = 0;  // of the unsimplified mesh
+    std::uint64_t face_count = 0;  // face count of the unsimplified mesh
     LabelOracle oracle;
 };
 
 struct CensusOptions {
-    bool cap = true;                        // as in ReconstructOptions
-    std::vector<InputLabel> background{0};  // as in ReconstructOptions
-    std::optional<Sweep> sweep = {};        // of tetrahedra
-    CellKind cells = CellKind::kCompact;    // of sections; kAuto counts as kCompact
+    bool cap = true;                        // cap as in ReconstructOptions
+    std::vector<InputLabel> background{0};  // background as in ReconstructOptions
+    std::optional<Sweep> sweep = {};        // sweep of tetrahedra
+    CellKind cells = CellKind::kCompact;    // cells of sections; kAuto counts as kCompact
     std::uint32_t threads = 1;              // 0: one per core. On two a section is read while the one before is counted
     std::function<void(std::uint32_t strips)> on_strip = {};  // called after each pair of sections that was counted
 };

@@ -15,9 +15,9 @@ namespace regionmesh {
 
 /// What a change did.
 struct ModelChange {
-    CheckReport before;  // of the mesh as it came, turned into the axes of its box (BoxAxes)
+    CheckReport before;  // check of the mesh as it came, turned into the axes of its box (BoxAxes)
     LockedPart locked;   // because of violations that it came with
-    Report report;       // as reconstruct() gives it
+    Report report;       // report as reconstruct() gives it
 };
 
 /// Called with the faces that are gone in a stage ("decimate", "smooth lines", "improve", "check"), and with how many

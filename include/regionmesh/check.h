@@ -89,9 +89,9 @@ struct CheckOptions {
 };
 
 struct CheckReport {
-    std::array<std::uint64_t, kViolationKindCount> counts{};  // by ViolationKind
-    std::vector<Violation> violations;                        // at most CheckOptions::listed of each kind
-    std::vector<RegionReport> regions;                        // by dense label; background left out
+    std::array<std::uint64_t, kViolationKindCount> counts{};  // one per ViolationKind
+    std::vector<Violation> violations;                        // violations, at most CheckOptions::listed of each kind
+    std::vector<RegionReport> regions;                        // one per dense label; background left out
     QualityReport quality;
     LineReport lines;
     std::uint64_t quadruple_points_inside = 0;
@@ -106,7 +106,7 @@ CheckReport check(const Mesh& mesh, const CheckOptions& options = {});
 /// What lock_violations() locked.
 struct LockedPart {
     std::uint32_t vertices = 0;
-    std::uint32_t faces = 0;  // with three locked vertices
+    std::uint32_t faces = 0;  // faces with three locked vertices
 };
 
 /// Locks the vertices whose stars are not generic, and the corners of faces that are degenerate or cross others, so

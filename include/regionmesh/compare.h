@@ -53,7 +53,7 @@ private:
 };
 
 struct CompareOptions {
-    std::uint64_t samples = 1'000'000;      // on the faces of each mesh; a tenth of this on its lines
+    std::uint64_t samples = 1'000'000;      // samples on the faces of each mesh; a tenth of this on its lines
     std::vector<InputLabel> background{0};  // no regions; their faces to the exterior are left out
     bool vertex_distances = false;          // fill CompareReport::vertex_distances; A has to be a ComparedMesh
     std::uint32_t threads = 0;              // 0: one per core; the result does not depend on it
@@ -63,7 +63,7 @@ struct CompareOptions {
 struct DistanceStatistics {
     std::uint64_t samples = 0;
     double rms = 0, mean = 0;
-    double max = 0;          // of the samples: the surface may be slightly farther away between them
+    double max = 0;          // largest at samples: the surface may be farther away between them
     double quantile_95 = 0;  // the smallest sampled distance not exceeded on 95 % of the area or length
 };
 
@@ -76,7 +76,7 @@ struct TwoSidedDistance {
 /// The boundary of a region in A compared with that in B. nullopt where the region is missing.
 struct RegionComparison {
     Label label = 0;
-    std::array<std::optional<RegionReport>, 2> measures;  // in A and B; `label` refers to CompareReport::labels
+    std::array<std::optional<RegionReport>, 2> measures;  // values in A and B; `label`: CompareReport::labels
     TwoSidedDistance distance;
 };
 
@@ -88,13 +88,13 @@ struct StratumComparison {
 };
 
 struct CompareReport {
-    LabelTable labels;  // of both meshes, in ascending order: labels below are its dense labels, or exterior(0)
+    LabelTable labels;  // labels of both meshes, ascending: labels below are its dense labels, or exterior(0)
     std::array<std::uint64_t, 2> faces{}, vertices{};
-    TwoSidedDistance distance;  // of the whole surfaces, regardless of labels
+    TwoSidedDistance distance;  // distance of the whole surfaces, regardless of labels
     std::vector<RegionComparison> regions;
     std::vector<StratumComparison> interfaces, lines;
     std::array<QualityReport, 2> quality;
-    std::vector<double> vertex_distances;  // by vertex id of A, to the whole surface of B; if asked for and B has faces
+    std::vector<double> vertex_distances;  // per vertex id of A, to the surface of B; if asked for and B has faces
 };
 
 /// Compares by sampling (src/compare/sample.h); labels correspond if they are equal in the input. Deterministic for any

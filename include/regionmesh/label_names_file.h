@@ -34,7 +34,7 @@ namespace formats {
 struct NamesAndColours {
     LabelNames names = {};
     LabelColours colours = {};
-    std::string warning = {};  // of a table with a row that cannot be read, as in VolumeInfo
+    std::string warning = {};  // warning of a table with a row that cannot be read, as in VolumeInfo
 };
 
 /// From a table beside a volume: for atlas.nii.gz atlas.nii.txt or atlas.txt, then likewise .xml, .tsv, .csv, .label

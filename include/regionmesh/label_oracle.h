@@ -10,7 +10,7 @@ namespace regionmesh {
 
 /// docs/reference/check.md, "Against the labels". All three hold before and after smoothing and simplification.
 struct LabelOracle {
-    std::vector<std::int64_t> euler;            // by dense label: Euler characteristic of the region's boundary
+    std::vector<std::int64_t> euler;            // one per dense label: Euler characteristic of the region's boundary
     std::uint64_t quadruple_points_inside = 0;  // lattice tetrahedra with four labels
     std::uint64_t region_pairs = 0;             // pairs of labels joined by a lattice edge
 };

@@ -120,8 +120,8 @@ constexpr Space space_named(std::string_view name) {
 /// What a file says of its coordinates, or what is known of those of a model.
 struct Coordinates {
     Space space = Space::kUnknown;
-    std::optional<double> metres = {};  // in a unit of length
-    std::optional<Vec3> spacing = {};   // of the samples that a model was made of, along the axes of their lattice
+    std::optional<double> metres = {};  // metres in a unit of length
+    std::optional<Vec3> spacing = {};   // spacing of the samples of a model, along the axes of their lattice
     friend bool operator==(const Coordinates&, const Coordinates&) = default;
 };
 

@@ -52,9 +52,9 @@ struct Vertex {
     Corner star = kNoCorner;  // first corner of the star
     SideSet sides = 0;        // sides of the box it lies on; it keeps its coordinate across each of them
     bool is_fixed : 1 =
-        false;  // locked: neither moved nor removed, because some of its faces are elsewhere (rim, front)
+        false;  // neither moved nor removed: some of its faces are in another tile, block or strip, or broken
     bool is_alive : 1 = true;
-    std::uint8_t label_count : 5 = 0;  // of its stratum; valid while simplifying (src/simplify/rank/candidates.h)
+    std::uint8_t label_count : 5 = 0;  // labels of its stratum; while simplifying (src/simplify/rank/candidates.h)
     std::uint32_t bound_bits : 17 = 0;
 
     /// How far the faces round it may be from the surface that decimation was given, and that from them: a length at

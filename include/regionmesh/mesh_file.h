@@ -18,15 +18,15 @@ namespace regionmesh {
 
 /// A number for each vertex, written with the model.
 struct PointArray {
-    std::string name;                // of letters, digits and '_'; not NodeType, and not that of another array
-    std::span<const double> values;  // by vertex id
+    std::string name;                // name of letters, digits and '_'; not NodeType, and not that of another array
+    std::span<const double> values;  // one per vertex id
 };
 
 struct WriteOptions {
     std::vector<Label> background = {};         // second label of a face, like the exterior
     std::vector<PointArray> point_arrays = {};  // .vtp and .vtu only: Float64
-    LabelNames names = {};                      // of regions, in formats that can hold them
-    LabelColours colours = {};                  // of some regions; the others get those of a palette
+    LabelNames names = {};                      // names of regions, in formats that can hold them
+    LabelColours colours = {};                  // colours of some regions; the others get those of a palette
     bool per_region = false;                    // .stl, .obj and .ply: a file for each region, MODEL-REGION.EXTENSION;
                                                 // .obj: and MODEL.mtl with their colours
     Coordinates coordinates = {};               // space: where 3D Slicer reads it; .glb are scaled to metres
@@ -99,7 +99,7 @@ std::string readable_extensions();
 struct MeshFile {
     Mesh mesh;
     LabelTable labels;
-    LabelNames names = {};      // of labels, from the file
+    LabelNames names = {};      // names of labels, from the file
     LabelColours colours = {};  // likewise: those that the input gave, not those of the palette
     Coordinates coordinates = {};
     /// Labels of empty space; none: the file does not say. Files with a region on one side of each face have no

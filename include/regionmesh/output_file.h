@@ -61,7 +61,7 @@ private:
     [[noreturn]] void fail(int error_number) const;
     [[noreturn]] void fail(const std::string& reason) const;
 
-    std::filesystem::path path_;       // as given, for messages
+    std::filesystem::path path_;       // path as given, for messages
     std::filesystem::path target_;     // links followed
     std::filesystem::path temporary_;  // empty where there is none
     OutputOptions options_;

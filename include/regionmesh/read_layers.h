@@ -18,9 +18,9 @@ namespace regionmesh {
 
 /// How to interpolate between drill holes; all optional.
 struct LayerOptions {
-    std::string units = "auto";          // from young to old, with commas; auto: as in the holes; -UNIT: not modelled
-    std::optional<Vec3> spacing = {};    // of the samples; none: 1/100 of the longer side, 1/200 of the height
-    std::array<LengthRange, 3> box{};    // of the model; without a bound: that of the holes, and a margin
+    std::string units = "auto";  // units from young to old, with commas; auto: as in the holes; -UNIT: not modelled
+    std::optional<Vec3> spacing = {};    // spacing of the samples; none: 1/100 of the longer side, 1/200 of the height
+    std::array<LengthRange, 3> box{};    // box of the model; without a bound: that of the holes, and a margin
     std::filesystem::path terrain = {};  // ESRI ASCII grid of the heights of the ground; none: between the collars
     SweepChoice sweep = SweepChoice::kAuto;
     std::uint64_t memory = kDefaultMemory;  // most bytes of the heights of all surfaces and of the terrain
@@ -30,7 +30,7 @@ struct LayerOptions {
 
 /// What open_layers() found.
 struct LayerSummary {
-    std::vector<std::string> units = {};  // from young to old
+    std::vector<std::string> units = {};  // units from young to old
     double ordered_share =
         1;  // of the logged length that lies in its unit when every hole has each unit once, in order
 };

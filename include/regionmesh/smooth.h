@@ -55,8 +55,8 @@ struct SmoothReport {
     std::uint32_t window_chunks = 0;  // most strips held at once
     std::uint64_t window_bytes = 0;   // most bytes of the window
     double filter_seconds = 0, guard_seconds = 0;
-    std::vector<double> volume_before, volume_after;  // by dense label, length^3
-    std::optional<Vec3> apex;                         // of the cones whose sums the volumes are
+    std::vector<double> volume_before, volume_after;  // one per dense label, length^3
+    std::optional<Vec3> apex;                         // apex of the cones whose sums the volumes are
 
     /// For a mesh that is moved to its place in space: its volumes are then `factor` times as large.
     void scale_volumes(double factor);
@@ -79,7 +79,7 @@ struct PreserveReport {
     double drift = 0;                 // the same after the last round
     std::uint64_t regions_off = 0;    // regions whose drift stays above kVolumeTolerance
     std::uint64_t held_vertices = 0;  // stopped by the guard
-    double largest_displacement = 0;  // of one round, length
+    double largest_displacement = 0;  // largest displacement of one round, length
 };
 inline constexpr double kVolumeTolerance = 1e-6;
 

@@ -35,7 +35,7 @@ struct TetrahedraInfo {
     bool is_unsigned = false;           // labels are unsigned 64-bit numbers
     bool hull_is_convex = false;        // the tetrahedra fill their convex hull without gaps
     double scale_z = 1;                 // factor by which z was multiplied
-    std::optional<double> metres = {};  // in a unit of length, where the file says it
+    std::optional<double> metres = {};  // metres in a unit of length, where the file says it
     LabelNames names = {};              // given by the file
     std::string warning = {};           // what the reader decided that the user may not expect: a line, or empty
 };

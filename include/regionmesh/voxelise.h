@@ -103,12 +103,12 @@ private:
     VoxeliseOptions options_;
     std::shared_ptr<const SampleLines> lines_;
     std::array<std::uint32_t, 3> size_;             // along the axes of the sweep
-    std::array<std::array<double, 2>, 3> sides_{};  // by axis: the samples nearest to either end of the model
-    std::vector<Sections> sections_of_;             // by vertex
+    std::array<std::array<double, 2>, 3> sides_{};  // one per axis: the samples nearest to either end of the model
+    std::vector<Sections> sections_of_;             // one per vertex
     std::vector<FaceId> order_;                     // faces that reach sections, by the first of these
-    std::vector<std::uint32_t> start_;              // of the faces of each section in order_
+    std::vector<std::uint32_t> start_;              // start of the faces of each section in order_
     std::vector<ActiveFace> active_;                // faces that reach the sections in hand
-    std::vector<Scratch> scratch_;                  // by section in hand
+    std::vector<Scratch> scratch_;                  // one per section in hand
     IntoAxes into_axes_;
     bool is_mirrored_ = false, is_turned_ = false;
     double rounding_ = 0;  // share of a coordinate that is lost; 0 where none is
@@ -135,7 +135,7 @@ struct SampleAgreement {
             return sum == 0 ? 1 : 2.0 * static_cast<double>(in_both) / static_cast<double>(sum);
         }
     };
-    std::vector<Counts> regions;  // by dense label of the table; background labels are counted with the first of them
+    std::vector<Counts> regions;      // one per dense label; background labels count with the first
     std::optional<Label> background;  // the first of them
     /// Over all regions but the background: 2 sum |A and B| / sum (|A| + |B|).
     double dice() const;

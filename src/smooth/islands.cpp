@@ -49,7 +49,7 @@ std::vector<std::uint32_t> Parts::that_end_in(const SurfaceWindow& window, std::
         const Vec3 p = window.origin[v], q = window.origin[w];
         return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
     };
-    std::unordered_map<std::uint32_t, std::uint32_t> firsts;  // of each root in the chunk
+    std::unordered_map<std::uint32_t, std::uint32_t> firsts;  // first of each root in the chunk
     for (std::uint32_t v = vertices.first; v < vertices.end; ++v)
         if (parent_[v] == v) firsts[v] = v;
     for (std::uint32_t v = vertices.first; v < vertices.end && !firsts.empty(); ++v) {

@@ -25,10 +25,10 @@ private:
     void join(const SurfaceWindow& window);
     void note_closed(const SurfaceWindow& window);
 
-    std::vector<std::uint32_t> shell_;   // of each side of each face: 2 * face + side
-    std::vector<std::uint32_t> corner_;  // by shell: a vertex, from which volumes are measured
-    std::vector<bool> is_closed_;        // by shell
-    std::vector<double> before_;         // by shell: six times the volume at the origins; 0 if open
+    std::vector<std::uint32_t> shell_;   // shell of each side of each face: 2 * face + side
+    std::vector<std::uint32_t> corner_;  // one per shell: a vertex, from which volumes are measured
+    std::vector<bool> is_closed_;        // one per shell
+    std::vector<double> before_;         // one per shell: six times the volume at the origins; 0 if open
 };
 
 }  // namespace regionmesh

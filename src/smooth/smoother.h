@@ -39,7 +39,7 @@ public:
 private:
     struct Stage {
         enum Kind { kNeighbours, kPass, kRound, kResolve } kind;
-        std::uint32_t number;  // of the pass or round
+        std::uint32_t number;  // number of the pass or round
         std::uint32_t ahead;   // chunks that the stage before must be ahead
         std::uint32_t done = 0;
     };
@@ -65,7 +65,7 @@ private:
     std::uint32_t ready_ = 0, noted_ = 0, released_ = 0;
     std::optional<std::uint32_t> stuck_chunk_;
     SlidingArray<Vec3> positions_[2];
-    SlidingArray<double> low_;  // of each chunk along the sweep, smoothed or not
+    SlidingArray<double> low_;  // low of each chunk along the sweep, smoothed or not
     StepLengths steps_;
     BacktrackRounds rounds_;
     IntersectionResolver resolver_;

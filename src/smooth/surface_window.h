@@ -24,7 +24,7 @@ class SurfaceWindow {
 public:
     SlidingArray<Vec3> origin;  // positions before smoothing
     SlidingArray<SideSet> sides;
-    SlidingArray<ChunkFace> faces;  // with vertex numbers of the window: a neighbour is found with one look-up
+    SlidingArray<ChunkFace> faces;  // faces with vertex numbers of the window: a neighbour is found with one look-up
 
     SurfaceWindow();
 
@@ -53,8 +53,8 @@ private:
     std::span<const std::uint32_t> carried_by(std::uint32_t chunk) const;
     void end_chunk(std::span<const std::uint32_t> active);
 
-    SlidingArray<Start> starts_;  // of each chunk, and of the next one
-    SlidingLists active_;         // of each chunk: the vertices that it leaves active
+    SlidingArray<Start> starts_;  // starts of each chunk, and of the next one
+    SlidingLists active_;         // vertices that each chunk leaves active
 };
 
 }  // namespace regionmesh

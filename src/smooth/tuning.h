@@ -1,4 +1,4 @@
-// Every tuned constant of smoothing, with the measurement that chose it.
+// The tuned constants of smoothing, with a measurement where one chose the value.
 #pragma once
 
 #include <cstdint>

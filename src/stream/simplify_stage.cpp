@@ -110,7 +110,7 @@ void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
     give_back_freed_memory();
 }
 
-/// Brings the mesh to the goal exactly, with one heap over all edges.
+/// Brings the mesh to the goal exactly, in sweeps over all edges.
 void SimplifyStage::trim(std::uint64_t goal, double safe_high, bool is_last) {
     const StageTimer timer = log_.time("decimate");
     SimplifyOptions own = simplify_options(options_, shape_);

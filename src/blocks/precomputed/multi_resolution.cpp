@@ -39,7 +39,7 @@ ChunkPlace place_along_curve(std::uint64_t code) {
 
 /// A part of a face on one side, in the order of files.
 struct SortedFace {
-    std::uint32_t rank;  // of the region
+    std::uint32_t rank;  // rank of the region
     std::uint32_t level;
     std::uint64_t chunk;  // along the curve
     std::array<std::array<std::uint16_t, 3>, 3> corners;

@@ -39,7 +39,7 @@ private:
 struct Precomputed {
     std::filesystem::path output;
     const LabelTable& labels;
-    PrecomputedOptions options;  // with what a folder says itself
+    PrecomputedOptions options;  // options with what a folder says itself
     NewFiles& files;
 
     /// Nanometres in a unit of the model.
@@ -58,7 +58,7 @@ struct WrittenRegions {
     std::map<Label, std::uint64_t> faces;
     Box box;
     Json info;
-    double rounded_share_of_edge = 0;  // as PrecomputedResult has it
+    double rounded_share_of_edge = 0;  // rounded share of edge as PrecomputedResult has it
 };
 
 /// Single-resolution: ID:0 and one fragment for each part of the model.

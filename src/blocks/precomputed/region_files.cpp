@@ -56,7 +56,7 @@ public:
 
 private:
     struct Entry {
-        std::uint64_t id, start, bytes;  // of the manifest, from the end of the shard's index
+        std::uint64_t id, start, bytes;  // id, start and bytes of the manifest, from the end of the shard's index
     };
 
     std::uint64_t number(Label region) const { return static_cast<std::uint64_t>(precomputed_.labels.input(region)); }

@@ -22,7 +22,7 @@ struct ChunkOrder {
     double thickness = std::numeric_limits<double>::infinity();
     std::uint32_t overlap = 0;               // chunks that follow and begin before the end of one, at most
     std::uint32_t extra = 0;                 // chunks held beyond those that the reach of the filter calls for
-    LatticeFrame frame = {};                 // of the vertices; for SmoothFilter::kLattice
+    LatticeFrame frame = {};                 // frame of the vertices; for SmoothFilter::kLattice
     CellKind cells = CellKind::kTetrahedra;  // that the surface is made of, for the same
     Box wanted{{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};  // for the same: positions of
                                                                                     // vertices outside are not needed

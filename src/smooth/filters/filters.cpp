@@ -14,7 +14,7 @@ namespace {
 struct FilterRow {
     SmoothFilter filter;
     std::unique_ptr<Filter> (*make)(const FilterInput& input);
-    std::uint64_t bytes_per_face;  // in addition to the window that all filters with passes share
+    std::uint64_t bytes_per_face;  // bytes per face in addition to the window that all filters with passes share
 };
 
 template <class F>

@@ -52,7 +52,7 @@ private:
     FilterInput input_;
     SlidingLists stars_;  // corners, as ChunkStars has them
     SlidingArray<FaceMeasure> measures_;
-    SlidingArray<Vec3> normals_;  // of the faces between mollified positions
+    SlidingArray<Vec3> normals_;  // normals of the faces between mollified positions
 };
 
 }  // namespace regionmesh

@@ -21,7 +21,7 @@ struct SiteEstimate {
 /// A fit of a run.
 struct FitPlace {
     LatticeRow* row;
-    std::uint32_t run, fit;  // in the row
+    std::uint32_t run, fit;  // indices of run and fit in the row
 };
 
 /// A quadric is fitted to the samples within kReach blocks. It is accepted if it passes through (nearly) every simplex
@@ -32,7 +32,7 @@ public:
     static constexpr float kReach = 2.2f, kBlend = 1.3f;  // radii in blocks
 
     struct Options {
-        double size;             // of blocks in finest spacings
+        double size;             // size of blocks in finest spacings
         bool takes_all = false;  // accept every quadric
         CellKind cells = CellKind::kTetrahedra;
     };

@@ -16,13 +16,13 @@ namespace regionmesh {
 class LatticeLevel {
 public:
     struct Options {
-        double size;             // of blocks in finest spacings; along an axis with wider spacing that spacing
+        double size;             // size of blocks in finest spacings; along an axis with wider spacing that spacing
         bool takes_all = false;  // accept every quadric: the finest scale
         CellKind cells = CellKind::kTetrahedra;
         const LatticeLevel* before = nullptr;  // the level that refines the same sites first
         int sweep_axis = 2;
         std::uint32_t threads = 0;
-        Box wanted;  // in finest spacings: estimates of sites outside need not be made
+        Box wanted;  // box in finest spacings: estimates of sites outside need not be made
     };
 
     LatticeLevel(const LatticeSites& sites, SlidingPages<SiteEstimate>& estimates, const Options& options);

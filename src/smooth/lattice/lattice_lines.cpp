@@ -216,7 +216,7 @@ void LatticeLines::end_links(std::uint32_t node) {
 /// `before` begins with the node `first`, `after` with the first of these.
 void LatticeLines::Four::sweep(const Unsigned4* before, std::uint32_t first, Unsigned4* after) const {
     std::array<Unsigned4, 4> base_at;
-    std::array<Float4, 4> sums;  // of the neighbours, from the base
+    std::array<Float4, 4> sums;  // sums of the neighbours, from the base
     for (int lane = 0; lane < 4; ++lane) {
         base_at[lane] = load<Unsigned4>(&base[lane]) << kWeightBits;
         Unsigned4 sum{};

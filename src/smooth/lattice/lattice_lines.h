@@ -16,7 +16,7 @@ namespace regionmesh {
 /// Least squares for a vertex: heights over its interfaces and distance to a given point, over steps in the affine hull
 /// of its simplex. Lengths are in finest spacings.
 struct NearestPoint {
-    int count = 0;  // of edges from the first node
+    int count = 0;  // count of edges from the first node
     std::array<std::array<double, 3>, 3> a{};
     std::array<double, 3> b{};
 
@@ -69,13 +69,13 @@ private:
     /// first; without a pull they are `inset` + `margin` + `step`.
     struct Four {
         std::array<std::array<std::uint32_t, 4>, 4> next{};  // numbers of nodes
-        std::array<std::array<std::uint32_t, 4>, 4> base{};  // of the simplex; the last number is not used
-        std::array<std::uint8_t, 4> kind{}, count{};         // of the simplex; of the neighbours
+        std::array<std::array<std::uint32_t, 4>, 4> base{};  // base of the simplex; the last number is not used
+        std::array<std::uint8_t, 4> kind{}, count{};         // kind of the simplex; of the neighbours
         std::array<Float4, 3> step{};
-        std::array<std::array<Float4, 3>, 3> pull{};  // of each weight, by axis, of the sum of the neighbours
+        std::array<std::array<Float4, 3>, 3> pull{};  // pull of each weight, by axis, of the sum of the neighbours
         Float4 margin{};
-        Float4 inset = all_four(1), inset_third = all_four(1);  // of equal weights beyond the margin
-        Float4 room = all_four(1);                              // of the sum of the weights, beyond the margins
+        Float4 inset = all_four(1), inset_third = all_four(1);  // inset of equal weights beyond the margin
+        Float4 room = all_four(1);                              // room of the sum of the weights, beyond the margins
 
         void sweep(const Unsigned4* before, std::uint32_t first, Unsigned4* after) const;
     };
@@ -97,10 +97,10 @@ private:
     SlidingPages<Four> fours_;
     // By node, in 2^-20 of a lattice unit, modulo 2^32: neighbours are never far. The last number is not used.
     std::array<SlidingArray<Unsigned4>, 2> at_;
-    SlidingPages<NearestPoint> equations_;    // of the nodes whose neighbours are still to be found
+    SlidingPages<NearestPoint> equations_;    // equations of the nodes whose neighbours are still to be found
     std::vector<std::uint32_t> carried_;      // nodes of the vertices that the next chunk to be linked carries
-    SlidingArray<std::uint32_t> first_node_;  // by chunk, and one more
-    std::vector<Side> sides_, next_sides_;    // of the chunk that is linked next, and of the one after it
+    SlidingArray<std::uint32_t> first_node_;  // one per chunk, and one more
+    std::vector<Side> sides_, next_sides_;    // sides of the chunk linked next, and of the one after it
 };
 
 }  // namespace regionmesh

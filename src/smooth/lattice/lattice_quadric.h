@@ -36,7 +36,7 @@ public:
 
 private:
     std::array<Float3, 8> steps_;
-    std::array<Float3, kKindCount> edge_{};  // by kind; zero for other simplices
+    std::array<Float3, kKindCount> edge_{};  // one per kind; zero for other simplices
 };
 
 inline bool are_edges(const Kinds4& kind) { return std::max({kind[0], kind[1], kind[2], kind[3]}) < kFirstTriangle; }
@@ -61,12 +61,12 @@ Extent4 extent_of(const Kinds4& kind, Height&& height_of_node) {
 /// Points of an interface round the centre of a fit, four at a time. A point of weight 0 does not count.
 struct HeightSamples {
     struct Four {
-        Float4 u, v, height;  // in finest spacings
+        Float4 u, v, height;  // u, v and height in finest spacings
         Float4 weight;
-        Kinds4 kind;  // of the simplices
+        Kinds4 kind;  // kind of the simplices
     };
     std::vector<Four> fours;
-    std::uint32_t count = 0;  // of the fours in use
+    std::uint32_t count = 0;  // count of the fours in use
 };
 
 /// Axes of a fit.

@@ -17,9 +17,9 @@ struct LatticeBlocks {
     /// Per block along each axis: sites of one kind of simplex in a cell are one sample.
     static constexpr int kCells = 3;
 
-    Float3 spacing, size;  // of samples, of blocks; in finest spacings
+    Float3 spacing, size;  // spacing and size of samples, of blocks; in finest spacings
     Float3 per_size;       // inverses of size
-    Float3 unit;           // of positions in a block, in finest spacings
+    Float3 unit;           // unit of positions in a block, in finest spacings
     LatticeSteps steps;
     int layer_axis, row_axis, place_axis;
 
@@ -91,7 +91,7 @@ struct LatticeSamples {
 
     std::uint16_t at[3][4];     // LatticeBlocks::in_units
     std::int16_t normal[3][4];  // in kNormalUnit
-    std::uint16_t count[4]{};   // of sites
+    std::uint16_t count[4]{};   // count of sites
     Kinds4 kind{1, 1, 1, 1};
 
     Lanes3<Float4> positions() const { return {as_floats(at[0]), as_floats(at[1]), as_floats(at[2])}; }
@@ -124,7 +124,7 @@ struct LatticeRun {
     std::uint32_t site, samples = 0;
     std::uint32_t fit : 31 = 0;
     std::uint32_t is_wanted : 1 = 0;             // its fits are made, or will be
-    std::array<std::uint16_t, 3> low{}, high{};  // round the box of its sites, in units from the corner of the block
+    std::array<std::uint16_t, 3> low{}, high{};  // box of its sites, in units from the corner of the block
 };
 
 /// By interface, then block along the row, which may lie up to two before the first.
@@ -133,8 +133,8 @@ constexpr std::uint64_t run_key(std::uint32_t interface, std::int64_t place) {
 }
 
 struct LatticeRow {
-    std::vector<std::uint32_t> sites;     // in order of number, then by run
-    std::vector<std::uint64_t> keys;      // of the runs, in order; and one above all at the end
+    std::vector<std::uint32_t> sites;     // sites in order of number, then by run
+    std::vector<std::uint64_t> keys;      // keys of the runs, in order; and one above all at the end
     std::vector<LatticeRun> runs;         // and one more at the end
     std::vector<LatticeSamples> samples;  // none where each of them is a site (LatticeBlocks::parts_sites)
     std::vector<LatticeFit> fits;
@@ -160,7 +160,7 @@ private:
 struct NearRun {
     LatticeRow* row;
     std::uint32_t run;
-    std::array<std::int8_t, 3> offset;  // in blocks, by axis
+    std::array<std::int8_t, 3> offset;  // offset in blocks, by axis
 
     const LatticeRun& operator*() const { return row->runs[run]; }
     const LatticeRun& next() const { return row->runs[run + 1]; }
@@ -189,7 +189,7 @@ private:
     std::vector<Near> rows_;
     std::uint32_t interface_ = ~0u;
     int place_axis_;
-    std::vector<NearRun> near_;  // as many as there can be
+    std::vector<NearRun> near_;  // room for as many as there can be
 };
 
 }  // namespace regionmesh

@@ -18,9 +18,9 @@ namespace regionmesh {
 /// A vertex in one interface between two regions. A vertex of an interface has one, of a triple line three, of a
 /// quadruple point six.
 struct LatticeSite {
-    LatticePoint centroid;  // of its simplex
+    LatticePoint centroid;  // centroid of its simplex
     std::uint32_t code;     // interface() and kind(), which are loaded four at a time with what is beside them
-    Float3 normal;          // of the unsmoothed interface near by, unit length; from the first label to the second
+    Float3 normal;  // normal of the unsmoothed interface near by, unit length; from the first label to the second
 
     static constexpr int kKindBit = 27;
     static constexpr std::uint32_t kInterfaceMask = (1u << kKindBit) - 1;
@@ -88,12 +88,12 @@ private:
 
     LatticeFrame frame_;
     LatticeSteps steps_;
-    std::unordered_map<std::uint64_t, std::uint32_t> numbers_;  // of interfaces, in order of first use
+    std::unordered_map<std::uint64_t, std::uint32_t> numbers_;  // numbers of interfaces, in order of first use
     std::uint64_t last_pair_ = 0;
     std::uint32_t last_number_ = kNoInterface;
-    std::vector<Local> locals_;          // of the last chunk that was added
-    SlidingArray<Start> starts_;         // of chunks, and of the next one
-    SlidingPages<CornerSites> corners_;  // by face with sites
+    std::vector<Local> locals_;          // locals of the last chunk that was added
+    SlidingArray<Start> starts_;         // starts of chunks, and of the next one
+    SlidingPages<CornerSites> corners_;  // one per face with sites
     SlidingPages<LatticeSite> sites_;
     SlidingPages<Float3> sums_[kNormalPasses];  // by site; after a pass unit normals
 };
