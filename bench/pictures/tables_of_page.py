@@ -57,6 +57,10 @@ Written by `bench/pictures/run --data FOLDER`; [which to choose](../../docs/how-
 samples that do not lie in the region of their label; drill holes have no lattice. Quality: 0.26 is equilateral. Turning is the
 mean angle between consecutive edges of triple lines. AAL is decimated, the others are not.*
 
+![Kim's wells, cut open, with four presets](../../docs/pictures/presets-wells.png)
+
+*The wells: tetrahedra are long and thin, so smoothing draws contacts out at their edges.*
+
 ## Room
 
 {rooms}
