@@ -16,11 +16,25 @@ constexpr int slot_of(int kind) {
     return slot;
 }
 
+/// The kinds along the axes of the lattice, by those along the axes of the sweep.
+std::array<std::uint8_t, kKindCount> kinds_in_lattice(const Sweep& sweep) {
+    std::array<std::uint8_t, kKindCount> kinds{};
+    for (int kind = 0; kind < kKindCount; ++kind) {
+        std::array<Step, 4> steps{};
+        for (int n = 1; n < kKinds[kind].node_count; ++n)
+            for (int a = 0; a < 3; ++a)
+                if (kKinds[kind].steps[n] >> a & 1) steps[n] |= 1 << sweep.axes[a];
+        kinds[kind] = static_cast<std::uint8_t>(kind_of(steps[1], steps[2], steps[3]));
+    }
+    return kinds;
+}
+
 }  // namespace
 
 StripMesher::StripMesher(const Lattice& lattice, Sweep sweep, StripOptions options)
     : lattice_(lattice),
       sweep_(sweep),
+      lattice_kinds_(kinds_in_lattice(sweep)),
       options_(std::move(options)),
       width_(lattice.size[sweep.axes[0]]),
       height_(lattice.size[sweep.axes[1]]),
@@ -279,16 +293,18 @@ std::uint32_t StripMesher::make_vertex(const SimplexPlace& place, std::uint32_t 
     const Vec3 middle = centroid(place.kind);
     const Step along = extent(place.kind);
     ChunkVertex made;
+    VertexSimplex simplex{.base = {}, .kind = lattice_kinds_[place.kind]};
     for (int a = 0; a < 3; ++a) {
         const int axis = sweep_.axes[a];
         const std::uint32_t node = cell[a] + (place.base >> a & 1), size = lattice_.size[axis];
-        made.position[axis] =
-            lattice_.origin[axis] + (options_.first[axis] + node + middle[a]) * lattice_.spacing[axis];
+        simplex.base[axis] = options_.first[axis] + node;
+        made.position[axis] = lattice_.origin[axis] + (simplex.base[axis] + middle[a]) * lattice_.spacing[axis];
         if (along >> a & 1) continue;
         if (node == 0 && options_.is_side_of_whole(axis, false, size)) made.sides |= SideSet(1 << 2 * axis);
         if (node + 1 == size && options_.is_side_of_whole(axis, true, size)) made.sides |= SideSet(1 << (2 * axis + 1));
     }
     chunk_->vertices.push_back(made);
+    if (options_.cuts == QuadCuts::kCones) chunk_->simplices.push_back(simplex);
     return chunk_->carried + static_cast<std::uint32_t>(chunk_->vertices.size()) - 1;
 }
 

@@ -35,6 +35,7 @@ struct StripOptions {
 
 /// Meshes strips. A vertex is found by its lattice key, a base node and one of 26 kinds, in flat tables that cover two
 /// sections (kinds in the plane of a section, kBytesPerSample) and two rows (all other kinds).
+/// With QuadCuts::kCones, which smoothing inside the lattice needs, chunks get the simplices of their vertices.
 /// Positions are origin + (index + centroid) * spacing, in the axes of the lattice; its direction is not applied. The
 /// index and the origin are those of the whole where the lattice is a part of a larger one.
 class StripMesher {
@@ -97,6 +98,7 @@ private:
 
     Lattice lattice_;
     Sweep sweep_;
+    std::array<std::uint8_t, kKindCount> lattice_kinds_;  // by kind along the axes of the sweep
     StripOptions options_;
     std::uint32_t width_, height_, count_;  // samples along the fast axis, the slow axis, the sweep
     std::array<TetrahedronPlan, 6> tetrahedra_;

@@ -16,6 +16,7 @@ void Chunk::append(const Chunk& next) {
     };
     for (std::size_t n = 0; n < next.carried_bounds.size(); ++n) raise_bound(joint[n], next.carried_bounds[n]);
     vertices.insert(vertices.end(), next.vertices.begin(), next.vertices.end());
+    simplices.insert(simplices.end(), next.simplices.begin(), next.simplices.end());
     for (const ChunkFace& face : next.faces)
         faces.push_back({{here(face.vertices[0]), here(face.vertices[1]), here(face.vertices[2])}, face.labels});
     active.clear();

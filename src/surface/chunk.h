@@ -25,6 +25,13 @@ struct ChunkFace {
 };
 static_assert(sizeof(ChunkFace) == 20);
 
+/// The lattice simplex of a vertex: its base node, and its kind in the order of kKinds (cells/kuhn.h).
+struct VertexSimplex {
+    std::array<std::uint32_t, 3> base;
+    std::uint8_t kind;
+};
+static_assert(sizeof(VertexSimplex) == 16);
+
 /// Vertices have numbers local to the chunk. The first `carried` are the active vertices of the chunk before, in the
 /// order of its list `active`; then come `vertices`. Chunks to come may add faces to the vertices in `active`. All
 /// others are finalized (P 3.4).
@@ -33,7 +40,8 @@ struct Chunk {
     std::vector<ChunkVertex> vertices;
     std::vector<ChunkFace> faces;
     std::vector<std::uint32_t> active;
-    std::vector<float> carried_bounds = {};  // values that the error bounds of carried vertices rise to; or empty
+    std::vector<VertexSimplex> simplices = {};  // simplices of `vertices`, for smoothing inside the lattice; or empty
+    std::vector<float> carried_bounds = {};     // values that the error bounds of carried vertices rise to; or empty
 
     /// Appends the chunk that follows: its carried vertices are the active ones of this chunk.
     void append(const Chunk& next);
@@ -46,6 +54,7 @@ struct Chunk {
         clear_reused(vertices);
         clear_reused(faces);
         clear_reused(active);
+        clear_reused(simplices);
         clear_reused(carried_bounds);
     }
 };

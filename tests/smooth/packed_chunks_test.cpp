@@ -7,10 +7,10 @@
 namespace regionmesh {
 namespace {
 
-std::vector<LatticeVertex> vertices_of(const Chunk& chunk, const LatticeFrame& frame) {
+std::vector<LatticeVertex> vertices_of(const Chunk& chunk) {
     std::vector<LatticeVertex> vertices;
-    for (const ChunkVertex& vertex : chunk.vertices)
-        vertices.push_back({simplex_of(vertex.position, frame), vertex.sides});
+    for (std::size_t v = 0; v < chunk.vertices.size(); ++v)
+        vertices.push_back({simplex_of(chunk.simplices[v]), chunk.vertices[v].sides});
     return vertices;
 }
 
@@ -24,7 +24,7 @@ TEST(PackedChunks, gives_chunks_back_bit_for_bit_in_a_third_of_the_bytes) {
         PackedChunks packed;
         std::size_t plain = 0;
         for (const Chunk& chunk : chunks) {
-            packed.push_back(chunk, vertices_of(chunk, frame));
+            packed.push_back(chunk, vertices_of(chunk));
             plain += chunk.vertices.size() * sizeof(ChunkVertex) + chunk.faces.size() * sizeof(ChunkFace);
         }
         EXPECT_LT(packed.bytes(), plain / 3);

@@ -10,15 +10,18 @@
 namespace regionmesh::test {
 
 /// A chunk for each strip. Labels of the volume are dense labels already.
-inline std::vector<Chunk> cone_chunks(const ArrayVolume& volume, CellKind cells = CellKind::kTetrahedra) {
-    const Size size = volume.size();
-    const std::size_t area = std::size_t{size[0]} * size[1];
-    const std::vector<Label> labels(volume.labels().begin(), volume.labels().end());
-    StripMesher mesher(volume.info().lattice, kSweepZ, {.cells = cells, .cuts = QuadCuts::kCones});
-    std::vector<Chunk> chunks(size[2] - 1);
-    for (std::uint32_t strip = 0; strip + 1 < size[2]; ++strip)
-        mesher.mesh(std::span(labels).subspan(strip * area, area), std::span(labels).subspan((strip + 1) * area, area),
-                    chunks[strip]);
+inline std::vector<Chunk> cone_chunks(ArrayVolume volume, CellKind cells = CellKind::kTetrahedra,
+                                      Sweep sweep = kSweepZ) {
+    volume.swept(sweep);
+    StripMesher mesher(volume.info().lattice, sweep, {.cells = cells, .cuts = QuadCuts::kCones});
+    std::vector<InputLabel> section(std::size_t{volume.section_width()} * volume.section_height());
+    std::vector<Label> low, high;
+    std::vector<Chunk> chunks;
+    while (volume.next(section)) {
+        low.swap(high);
+        high.assign(section.begin(), section.end());
+        if (!low.empty()) mesher.mesh(low, high, chunks.emplace_back());
+    }
     return chunks;
 }
 

@@ -8,6 +8,7 @@
 #include "cells/kuhn.h"
 #include "regionmesh/vec3.h"
 #include "smooth/tuning.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 
@@ -42,8 +43,9 @@ struct LatticeSimplex {
     int node_count() const { return kKinds[kind].node_count; }
 };
 
-/// The simplex whose centroid an unsmoothed vertex is. Throws Error(kInput) for any other position.
-LatticeSimplex simplex_of(Vec3 position, const LatticeFrame& frame);
+inline LatticeSimplex simplex_of(const VertexSimplex& key) {
+    return {{double(key.base[0]), double(key.base[1]), double(key.base[2])}, key.kind};
+}
 
 /// The position of an unsmoothed vertex, bit for bit as the mesher makes it.
 inline double centroid_along(int axis, const LatticeSimplex& simplex, const LatticeFrame& frame) {

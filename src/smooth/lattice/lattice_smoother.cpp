@@ -97,8 +97,9 @@ bool LatticeSmoother::add(const Chunk& chunk, bool is_last, double next_low) {
     is_last_ = is_last;
     std::vector<LatticeVertex>& vertices = parts_.vertices;
     clear_reused(vertices);
-    for (const ChunkVertex& vertex : chunk.vertices)
-        vertices.push_back({simplex_of(vertex.position, order_.frame), vertex.sides});
+    assert(chunk.simplices.size() == chunk.vertices.size());
+    for (std::size_t v = 0; v < chunk.vertices.size(); ++v)
+        vertices.push_back({simplex_of(chunk.simplices[v]), chunk.vertices[v].sides});
     next_low_.push_back(next_low);
     parallel_invoke(
         options_.threads, [&] { chunks_.push_back(chunk, vertices); }, [&] { sites_.add(chunk, vertices); });

@@ -26,7 +26,7 @@ public:
     LatticeSmoother(const LatticeSmoother&) = delete;
     LatticeSmoother& operator=(const LatticeSmoother&) = delete;
 
-    /// Always true. Throws Error(kInput) for a vertex that is not the centroid of a lattice simplex.
+    /// Always true. Requires the simplices of the vertices (Chunk::simplices).
     [[nodiscard]] bool add(const Chunk& chunk, bool is_last, double next_low) override;
     bool next(Chunk& chunk) override;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <random>
+#include <set>
 
 #include "base/exact_predicates.h"
 #include "cells/marching_tetrahedra.h"
@@ -12,9 +13,9 @@
 #include "mesh/exact_ray.h"
 #include "mesh/face_meeting.h"
 #include "regionmesh/check.h"
-#include "regionmesh/error.h"
 #include "support/cone_chunks.h"
 #include "support/crossings.h"
+#include "support/lattice_simplices.h"
 #include "support/runs.h"
 
 namespace regionmesh {
@@ -39,7 +40,7 @@ Barycentric random_weights(std::mt19937_64& random, int node_count, double margi
 void shake(Mesh& mesh, const LatticeFrame& frame, CellKind cells, std::mt19937_64& random) {
     const LatticeMargins margins{kMargin, cells == CellKind::kCompact ? CompactCells::kInnerMargin : 0};
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
-        const LatticeSimplex simplex = simplex_of(mesh.position(VertexId{v}), frame);
+        const LatticeSimplex simplex = test::simplex_at(mesh.position(VertexId{v}), frame);
         mesh[VertexId{v}].position = position_in(
             simplex,
             rounded(random_weights(random, simplex.node_count(), margins.of(simplex.kind)), simplex.node_count()),
@@ -79,20 +80,25 @@ TEST(LatticeFrame, with_sections_twice_as_far_apart_is_anisotropic_up_to_roundin
     EXPECT_FALSE((LatticeFrame{.spacing = {1, 1.5, 1}}.is_anisotropic()));
 }
 
-TEST(LatticeSimplex, is_found_from_its_centroid) {
-    const LatticeFrame frame{{-3.7, 1e4, 0.125}, {0.3, 1, 7.1}};
-    for (int kind = 0; kind < kKindCount; ++kind) {
-        const Vec3 middle = centroid(kind);
-        const Vec3 base{5, 12345, 0};
-        Vec3 position;
-        for (int axis = 0; axis < 3; ++axis)
-            position[axis] = frame.origin[axis] + (base[axis] + middle[axis]) * frame.spacing[axis];
-        const LatticeSimplex found = simplex_of(position, frame);
-        EXPECT_EQ(found.kind, kind);
-        EXPECT_EQ(found.base, base);
-    }
-    EXPECT_THROW(simplex_of({0.1, 0.2, 0.3}, {}), Error);
-    EXPECT_THROW(simplex_of({0.5, 0.5, 1.0 / 3}, {}), Error);
+TEST(LatticeSimplex, comes_with_each_vertex_from_the_mesher_whatever_the_sweep) {
+    test::ArrayVolume volume = test::noise_volume({6, 5, 4}, 4, 3);
+    volume.lattice().spacing = {0.3, 1, 7.1};
+    volume.lattice().origin = {-3.7, 1e4, 0.125};
+    const Lattice& lattice = volume.info().lattice;
+    const LatticeFrame frame{lattice.origin, lattice.spacing};
+    for (const Sweep& sweep : {kSweepX, kSweepY, kSweepZ})
+        for (const CellKind cells : {CellKind::kCompact, CellKind::kTetrahedra}) {
+            std::set<int> kinds;
+            for (const Chunk& chunk : test::cone_chunks(volume, cells, sweep)) {
+                ASSERT_EQ(chunk.simplices.size(), chunk.vertices.size());
+                for (std::size_t v = 0; v < chunk.vertices.size(); ++v) {
+                    const LatticeSimplex simplex = simplex_of(chunk.simplices[v]);
+                    EXPECT_EQ(centroid_in(simplex, frame), chunk.vertices[v].position);
+                    kinds.insert(simplex.kind);
+                }
+            }
+            EXPECT_GT(kinds.size(), cells == CellKind::kTetrahedra ? 24u : 12u);
+        }
 }
 
 TEST(LatticeSimplex, clamping_keeps_all_weights_above_the_margin) {
