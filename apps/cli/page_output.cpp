@@ -72,7 +72,8 @@ PageModel page_model(const std::string& path, const Model& model) {
             .background = model.background,
             .names = model.names,
             .colours = model.colours,
-            .metres = model.coordinates.metres};
+            .metres = model.coordinates.metres,
+            .space = model.coordinates.space};
 }
 
 void write_report_and_page(Command command, const Settings& settings, Report& report, const Model& model,

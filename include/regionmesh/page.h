@@ -10,6 +10,7 @@
 
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
+#include "regionmesh/lattice.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/output_file.h"
 
@@ -24,6 +25,7 @@ struct PageModel {
     LabelNames names = {};
     LabelColours colours = {};               // of some regions; the others get those of a palette
     std::optional<double> metres = {};       // in its unit of length, where it is known
+    Space space = Space::kUnknown;           // where x, y and z point
     std::span<const double> distances = {};  // by vertex id, to the other model; may be empty
 };
 

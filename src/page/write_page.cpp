@@ -111,6 +111,7 @@ PageData model_data(const PageModel& model, const PageOptions& options) {
                    {"faces", model.mesh.face_count()},
                    {"vertices", model.mesh.vertex_count()},
                    {"exterior", view.label_text(exterior(0))},
+                   {"space", model.space == Space::kUnknown ? Json(nullptr) : Json(space_name(model.space))},
                    {"labels", labels_json(view)}},
                   {}};
     PageGeometry geometry;

@@ -415,6 +415,41 @@ async function places_that_only_backgrounds_have_are_not_gone_to(browser) {
     await page.close();
 }
 
+async function what_readers_of_scans_expect_is_there(browser) {
+    const flat = Uint8Array.from({ length: 20 * 20 * 3 }, (_, n) => (n % 20 < 10 ? 1 : 2));
+    writeFileSync(`${folder}/flat.raw`, flat);
+    run("reconstruct", `${folder}/flat.raw`, "--size", "20,20,3", "--type", "uint8", "--units", "mm", "--space", "lps", "-o", `${folder}/flat.vtp`, "--quiet", "--html", `${folder}/flat.html`);
+    const errors = [], page = await open(browser, `${folder}/flat.html`, errors);
+    assert.ok(await page.$eval("#stretched", (e) => e.hidden), "a flat scan is shown to scale");
+    await page.$eval("#stretch", (e) => {
+        e.value = 5;
+        e.dispatchEvent(new Event("change"));
+    });
+    assert.equal(await page.$eval("#stretched", (e) => e.hidden || e.textContent), "Height × 5: not to scale");
+    await page.evaluate("regionmesh.tools.stretch(1)");
+    assert.deepEqual(await page.$$eval(".cube button", (found) => found.map((e) => e.textContent)), ["R", "L", "A", "P", "I", "S"]);
+    await page.evaluate("document.querySelector('.cube button').click()");
+    const [x, y, z] = await page.evaluate("regionmesh.stage.camera.position.clone().sub(regionmesh.stage.controls.target).normalize().toArray()");
+    assert.ok(x < -0.99 && Math.abs(y) < 0.01 && Math.abs(z) < 0.01, "a click looks from the right");
+    await page.evaluate("regionmesh.stage.renderNow()");
+    assert.match(await page.$eval("#scale-text", (e) => e.textContent), /^[125]0*(\.\d+)? mm$|^0\.0*[125] mm$/);
+    const said = await page.evaluate(() => {
+        const { tools } = window.regionmesh, texts = [];
+        tools.measure.turn(true);
+        for (const at of [[0, 0, 0], [3, 0, 0], [3, 4, 0]]) {
+            tools.measure.add({ at, seen: at, which: 0 });
+            texts.push(tools.measure.text);
+        }
+        return texts;
+    });
+    assert.match(said[1], /^Distance 3 mm\./);
+    assert.match(said[2], /^Angle 90°, between 3 mm and 4 mm\.$/);
+    assert.match(await page.$eval("#region-rows .row-value", (e) => e.textContent), / mm³$/);
+    assert.equal(await page.$eval('#tabs [aria-current="true"]', (e) => e.textContent), "Model");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
 async function another_height_keeps_the_side_of_the_section(browser) {
     const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
     await page.select("#section-axis", "z");
@@ -433,7 +468,7 @@ const browser = await launch(repository);
 try {
     run("reconstruct", `${repository}/tests/data/solvers/polycrystal.nii.gz`, "-o", `${folder}/poly.vtp`, "--reduce", "80%", "--quiet");
     run("view", `${folder}/poly.vtp`, "-o", `${folder}/poly.html`);
-    for (const test of [cuts_colours_and_explodes, an_exploded_view_has_the_places_of_the_model,
+    for (const test of [cuts_colours_and_explodes, what_readers_of_scans_expect_is_there, an_exploded_view_has_the_places_of_the_model,
         marks_go_along_with_their_regions, the_legend_is_beside_the_buttons_or_above_them, a_lost_picture_comes_back,
         a_selected_region_keeps_the_colours_of_values, where_there_is_no_curvature_it_is_grey,
         a_click_hits_the_region_that_the_picture_shows, a_click_goes_through_transparent_regions,

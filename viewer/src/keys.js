@@ -22,6 +22,7 @@ function tableOf({ stage, regions, tools, act }) {
         ["L", ["l"], "flat faces", press("show-flat")],
         ["T", ["t"], "lines where three regions meet", press("show-lines")],
         ["Q", ["q"], "points where four regions meet", press("show-points")],
+        ["M", ["m"], "measure: click points on surfaces; again: no more", press("measure")],
         ["V", ["v"], "next violation", press("violation-next")],
         ["P", ["p"], "save a picture", act.screenshot],
         ["/", ["/"], "find a region", () => byId("region-search").focus()],

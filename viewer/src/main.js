@@ -2,7 +2,10 @@
 import { byId, counted, download, element, grouped } from "./dom.js";
 import { boxOf, loadModel } from "./geometry.js";
 import { addKeys } from "./keys.js";
+import { MeasureTool } from "./measure_tool.js";
+import { addOrientation } from "./orientation.js";
 import { showProof } from "./proof.js";
+import { addScaleBar } from "./scale_bar.js";
 import { RegionList } from "./region_list.js";
 import { Regions } from "./regions.js";
 import { Stage } from "./stage.js";
@@ -11,7 +14,11 @@ import { addTheme } from "./theme.js";
 import { Tools } from "./tools.js";
 import { unitText } from "./units.js";
 
-const kViews = { front: [0, -1, 0.0001], side: [1, 0, 0.0001], top: [0, -0.0001, 1] };
+/** In RAS the front of a patient is at y; elsewhere, and in LPS, at -y. */
+const viewsOf = (space) => {
+    const front = space === "RAS" ? 1 : -1;
+    return { front: [0, front, 0.0001], side: [1, 0, 0.0001], top: [0, 0.0001 * front, 1], first: [0.65 * front, 0.9 * front, 0.5] };
+};
 
 function say(text) {
     byId("notice").textContent = text;
@@ -39,15 +46,17 @@ function showHead(data, models) {
         byId("names").append(...models.map(({ title }, n) => element("span", {}, `${"AB"[n]}  ${title}`)));
 }
 
-function actions(stage, regions, title) {
+function actions(stage, regions, title, space) {
+    const views = viewsOf(space);
     const shown = () => stage.drawn.map((_, which) => regions.shown(which));
     const view = (direction) => () => {
         stage.setDirection(direction);
         stage.fit(shown());
     };
     return {
+        look: (direction) => view(direction)(),
         fit: () => stage.fit(shown()),
-        front: view(kViews.front), side: view(kViews.side), top: view(kViews.top),
+        front: view(views.front), side: view(views.side), top: view(views.top), first: view(views.first),
         screenshot: () => stage.screenshot((blob) => download(`${title.replace(/[^\w.-]+/g, "_")}.png`, "image/png", blob)),
         keys: () => byId("keys").showModal(),
     };
@@ -60,7 +69,9 @@ function addPicking(stage, regions, tools, list) {
     stage.canvas.addEventListener("pointerdown", (event) => (press = [event.clientX, event.clientY, event.button]));
     stage.canvas.addEventListener("pointerup", (event) => {
         if (!press || press[2] !== 0 || Math.hypot(event.clientX - press[0], event.clientY - press[1]) > 4) return;
-        const hit = hitOf(event), region = hit ? regions.at(hit.which, hit.label) : null;
+        const hit = hitOf(event);
+        if (tools.measure.isOn) return tools.measure.add(hit);
+        const region = hit ? regions.at(hit.which, hit.label) : null;
         tools.describe(region, hit);
         regions.select(region);
         if (region) list.reveal(region);
@@ -90,13 +101,13 @@ function addPaper(stage) {
 }
 
 function showModels(data, models, regions, box) {
-    const stage = new Stage(byId("canvas"), models, box);
+    const stage = new Stage(byId("canvas"), models, box, areStrata(data));
     stage.isOpen = (data.report?.violations ?? []).length > 0 || data.boundary_is_open;
     const lookAt = ({ first, places }) =>
         stage.fit(stage.drawn.map((_, n) => models[n].labels.map((_, place) => n === first && place === places[first])));
-    const list = new RegionList(regions, lookAt);
-    const act = actions(stage, regions, models[0].title);
-    const tools = new Tools({ stage, regions, models, fit: act.fit, lookAt, violations: data.report?.violations ?? [], unitText: unitText(data),
+    const list = new RegionList(regions, lookAt, data);
+    const act = actions(stage, regions, models[0].title, models[0].space);
+    const tools = new Tools({ stage, regions, models, fit: act.fit, lookAt, data, measure: new MeasureTool(stage, data), violations: data.report?.violations ?? [], unitText: unitText(data),
         violationCount: Object.values(data.report?.violation_counts ?? {}).reduce((sum, count) => sum + count, 0) });
     const update = () => {
         stage.drawn.forEach((drawn, which) => {
@@ -118,8 +129,25 @@ function showModels(data, models, regions, box) {
     addTheme((background) => stage.setBackground(background));
     addPaper(stage);
     fillWindow();
-    act.fit();
+    addScaleBar(stage, data);
+    addOrientation(stage, data.models[0].space, act.look);
+    act.first();
     return { stage, regions, tools, list, act };
+}
+
+/** Layers between drill holes are far wider than high. */
+const areStrata = ({ command_line: line }) => /(^| )--layers( |$)/.test(line ?? "");
+
+/** The tab of the part that is in the middle of the window is marked. */
+function markTabs() {
+    const links = [...document.querySelectorAll("#tabs a")];
+    const mark = () => {
+        const middle = window.innerHeight / 2;
+        const seen = links.filter(({ hash, hidden }) => !hidden && document.querySelector(hash).getBoundingClientRect().top <= middle);
+        for (const link of links) link.setAttribute("aria-current", String(link === (seen.at(-1) ?? links[0])));
+    };
+    window.addEventListener("scroll", mark, { passive: true });
+    mark();
 }
 
 /** Without WebGL there is no model to go to, without a report no table. */
@@ -153,6 +181,7 @@ async function start() {
         byId("canvas").focus({ preventScroll: true });
     }));
     hideEmptyLinks();
+    markTabs();
     page.stage?.renderNow();
     window.regionmesh = { ...page, data, models, readyAfter: performance.now() };
     document.documentElement.dataset.ready = "true";

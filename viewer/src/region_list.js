@@ -1,18 +1,20 @@
 // The list of regions. Only the rows in view exist as elements, so that ten thousand regions cost what twenty do.
-import { byId, counted, element, grouped, inOrder, labelNumber, short } from "./dom.js";
+import { byId, counted, element, grouped, inOrder, labelNumber } from "./dom.js";
+import { areaText, volumeText } from "./units.js";
 
 const kRowHeight = 30;
 const kOrders = {
-    volume: { value: (region) => -region.measures.volume, text: (region) => short(region.measures.volume, 3) },
-    area: { value: (region) => -region.measures.area, text: (region) => short(region.measures.area, 3) },
-    faces: { value: (region) => -region.measures.faces, text: (region) => grouped(region.measures.faces) },
-    name: { value: (region) => region.title, text: (region) => region.label },
-    label: { value: (region) => labelNumber(region.label), text: (region) => region.label },
+    volume: { value: (region) => -region.measures.volume, text: (region, data) => volumeText(region.measures.volume, data, 3), head: "Volume" },
+    area: { value: (region) => -region.measures.area, text: (region, data) => areaText(region.measures.area, data, 3), head: "Area" },
+    faces: { value: (region) => -region.measures.faces, text: (region) => grouped(region.measures.faces), head: "Faces" },
+    name: { value: (region) => region.title, text: (region) => region.label, head: "Label" },
+    label: { value: (region) => labelNumber(region.label), text: (region) => region.label, head: "Label" },
 };
 
 export class RegionList {
-    constructor(regions, lookAt) {
+    constructor(regions, lookAt, data) {
         this.regions = regions;
+        this.data = data;
         this.lookAt = lookAt;
         this.box = byId("region-rows");
         this.space = element("div", { class: "row-space" });
@@ -47,7 +49,8 @@ export class RegionList {
 
     refilter() {
         const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
-        const { value } = kOrders[this.order.value];
+        const { value, head } = kOrders[this.order.value];
+        byId("row-value-head").textContent = head;
         this.found = this.regions.all.filter((region) => {
             const text = `${region.label} ${region.title}`.toLowerCase();
             return words.every((word) => text.includes(word));
@@ -122,7 +125,7 @@ export class RegionList {
             button("eye", region.state === "hidden" ? "Show" : "Hide", region.state === "hidden" ? "○" : "●", null,
                 () => regions.setState([region], region.state === "hidden" ? "solid" : "hidden")),
             swatch, name,
-            element("span", { class: "row-value" }, kOrders[this.order.value].text(region)),
+            element("span", { class: "row-value" }, kOrders[this.order.value].text(region, this.data)),
             button("ghost", "See through", "◌", region.state === "ghost",
                 () => regions.setState([region], region.state === "ghost" ? "solid" : "ghost")),
             button("only", "Isolate", "◉", null, () => regions.isolate(region)));

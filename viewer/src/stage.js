@@ -9,7 +9,7 @@ const kFieldOfView = 30;
 const kSlow = 60;  // milliseconds a frame
 const kRest = 250;  // milliseconds after the last move
 
-/** 1, or what brings the height of a flat model, such as strata, to a quarter of its width: 1, 2 or 5 times 10^n. */
+/** 1, or what brings the height of flat strata to a quarter of their width: 1, 2 or 5 times 10^n. */
 function flatnessOf(models) {
     const [x, y, z] = [0, 1, 2].map((axis) => Math.max(...models.map(({ low, high }) => high[axis] - low[axis])));
     if (!(z > 0) || 5 * z > Math.max(x, y)) return 1;
@@ -18,8 +18,8 @@ function flatnessOf(models) {
 }
 
 export class Stage extends EventTarget {
-    /** The models lie in `box`, and are relative to its centre. */
-    constructor(canvas, models, box) {
+    /** The models lie in `box`, and are relative to its centre. `areStrata`: flat ones are shown higher than they are. */
+    constructor(canvas, models, box, areStrata) {
         super();
         this.canvas = canvas;
         this.box = box;
@@ -33,7 +33,7 @@ export class Stage extends EventTarget {
             plane: { value: new three.Vector4(0, 0, 1, 0) }, isCut: { value: false }, isFlat: { value: false },
             edges: { value: 0 }, explode: { value: 0 }, eye: { value: new three.Vector3() }, isOutside: { value: true }, stretch: { value: 1 },
         };
-        this.shared.stretch.value = flatnessOf(models);
+        this.shared.stretch.value = areStrata ? flatnessOf(models) : 1;
         this.drawn = models.map((model) => new DrawnModel(model, this.shared));
         this.colouring = "region";
         this.frames = 0;

@@ -1,6 +1,6 @@
 // The table of regions: sorted by any column, and as CSV and JSON with the numbers of the report.
 import { byId, download, element, grouped, inOrder, labelNumber, short } from "./dom.js";
-import { unitText } from "./units.js";
+import { areaText, lengthText, unitText, volumeText } from "./units.js";
 
 const kFirstRows = 200;
 
@@ -8,28 +8,28 @@ const kFirstRows = 200;
 const kColumns = [
     ["label", "Label", (row) => row.label, (value) => value],
     ["name", "Name", (row) => row.name, (value) => value],
-    ["volume_unsmoothed", "Volume before", (row) => row.volume_unsmoothed, short],
-    ["volume", "Volume", (row) => row.volume, short],
+    ["volume_unsmoothed", "Volume before", (row) => row.volume_unsmoothed, volumeText],
+    ["volume", "Volume", (row) => row.volume, volumeText],
     ["volume_change", "Change", (row) => row.volume_change, (value) => `${value >= 0 ? "+" : ""}${(100 * value).toFixed(3)} %`],
     ["dice", "Dice", (row) => row.dice, (value) => value.toFixed(5)],
-    ["area", "Area", (row) => row.area, short],
-    ["neighbours", "Neighbours", (row) => row.neighbours, grouped],
-    ["euler", "Euler", (row) => row.euler, String],
-    ["components", "Parts", (row) => row.components, grouped],
+    ["area", "Area", (row) => row.area, areaText],
+    ["neighbours", "Neighbours", (row) => row.neighbours, (value) => grouped(value)],
+    ["euler", "Euler", (row) => row.euler, (value) => String(value)],
+    ["components", "Parts", (row) => row.components, (value) => grouped(value)],
 ];
 
 const kCompareColumns = [
     ["label", "Label", (row) => row.label, (value) => value],
     ["name", "Name", (row) => row.name, (value) => value],
-    ["volume_a", "Volume A", (row) => row.a?.volume, short],
-    ["volume_b", "Volume B", (row) => row.b?.volume, short],
-    ["area_a", "Area A", (row) => row.a?.area, short],
-    ["area_b", "Area B", (row) => row.b?.area, short],
-    ["euler_a", "Euler A", (row) => row.a?.euler, String],
-    ["euler_b", "Euler B", (row) => row.b?.euler, String],
-    ["rms", "Distance, rms", (row) => row.distance?.both?.rms, short],
-    ["quantile_95", "95 %", (row) => row.distance?.both?.quantile_95, short],
-    ["max", "Largest", (row) => row.distance?.both?.max, short],
+    ["volume_a", "Volume A", (row) => row.a?.volume, volumeText],
+    ["volume_b", "Volume B", (row) => row.b?.volume, volumeText],
+    ["area_a", "Area A", (row) => row.a?.area, areaText],
+    ["area_b", "Area B", (row) => row.b?.area, areaText],
+    ["euler_a", "Euler A", (row) => row.a?.euler, (value) => String(value)],
+    ["euler_b", "Euler B", (row) => row.b?.euler, (value) => String(value)],
+    ["rms", "Distance, rms", (row) => row.distance?.both?.rms, lengthText],
+    ["quantile_95", "95 %", (row) => row.distance?.both?.quantile_95, lengthText],
+    ["max", "Largest", (row) => row.distance?.both?.max, lengthText],
 ];
 
 function rowsOf({ report, models }, regions) {
@@ -95,7 +95,7 @@ export function showTable(data, regions, goTo) {
         element("th", { scope: "col", "data-column": name }, element("button", { type: "button", onclick: () => sortBy(n) }, title)));
     const draw = () => {
         const sorted = [...all].sort((a, b) => compare(keyOf(a), keyOf(b), sign));
-        body.replaceChildren(...sorted.slice(0, shown).map((row) => tableRow(row, columns, regions, goTo)));
+        body.replaceChildren(...sorted.slice(0, shown).map((row) => tableRow(row, columns, regions, goTo, data)));
         heads.forEach((head, n) => head.setAttribute("aria-sort", n !== order ? "none" : sign > 0 ? "ascending" : "descending"));
         more.hidden = shown >= all.length;
         more.textContent = `Show all ${grouped(all.length)} rows`;
@@ -124,11 +124,11 @@ export function showTable(data, regions, goTo) {
     draw();
 }
 
-function tableRow(row, columns, regions, goTo) {
+function tableRow(row, columns, regions, goTo, data) {
     const region = regions.byLabel.get(row.label);
     const cells = columns.map(([name, , value, text]) => {
         const found = value(row);
-        const shown = found === undefined || found === null ? "–" : text(found);
+        const shown = found === undefined || found === null ? "–" : text(found, data);
         if (name !== "label" || !region) return element("td", { "data-column": name }, shown);
         const swatch = element("span", { class: "swatch" });
         swatch.style.background = region.colour;

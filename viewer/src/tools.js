@@ -3,6 +3,7 @@ import { byId, coordinate, counted, element, grouped, isolated, short } from "./
 import { faceQuality, interfaceMeasures } from "./measures.js";
 import { farthestVertex, labelsAround, nearestVertex, outsideAt } from "./places.js";
 import { kRamps } from "./ramps.js";
+import { areaText, lengthText, volumeText } from "./units.js";
 
 function group(title, ...children) {
     return element("fieldset", {}, element("legend", {}, title), ...children);
@@ -33,10 +34,11 @@ function placeText(model, at) {
 
 export class Tools {
     constructor(page) {
-        Object.assign(this, page);  // stage, regions, models, fit, lookAt, violations, violationCount, unitText
+        Object.assign(this, page);  // stage, regions, models, fit, lookAt, measure, violations, violationCount, unitText, data
         this.info = element("div", { id: "info", role: "status", "aria-live": "polite" });
         byId("tools").append(
-            group("Selected", this.info), this.colourGroup(), this.sectionGroup(), this.shapeGroup(), this.lineGroup());
+            group("Selected", this.info), this.measureGroup(), this.colourGroup(), this.sectionGroup(), this.shapeGroup(), this.lineGroup());
+        this.sayStretch();
         if (this.violations.length > 0) {
             byId("tools").append(this.violationGroup());
             byId("violation-alone").checked = true;
@@ -82,7 +84,7 @@ export class Tools {
         drawn.showMarkers([{ at, labels: [label] }]);
         this.stage.lookAt(drawn.moved(label, at), this.stage.radius / 5, normal);
         byId("farthest-text").textContent =
-            `${short(distance)} at a vertex of ${"AB"[which]}, ${placeText(model, at)}. Only ${isolated(this.regions.titleAt(which, label))} shown; the key A shows all.`;
+            `${lengthText(distance, this.data)} at a vertex of ${"AB"[which]}, ${placeText(model, at)}. Only ${isolated(this.regions.titleAt(which, label))} shown; the key A shows all.`;
     }
 
     sectionGroup() {
@@ -110,6 +112,18 @@ export class Tools {
             toggle("section-turn", "Keep the other side", update), place);
     }
 
+    measureGroup() {
+        return group("Measure", toggle("measure", "Click points on surfaces (M)", (isOn) => this.measure.turn(isOn)),
+            element("p", { id: "measure-text", class: "hint", role: "status" }));
+    }
+
+    /** A picture that is not to scale says so. */
+    sayStretch() {
+        const factor = this.stage.shared.stretch.value;
+        byId("stretched").hidden = factor === 1;
+        byId("stretched").textContent = `Height × ${short(factor)}: not to scale`;
+    }
+
     shapeGroup() {
         const height = element("input", {
             id: "stretch", type: "number", min: "0.1", max: "1000", step: "any", value: this.stage.shared.stretch.value,
@@ -123,12 +137,15 @@ export class Tools {
         byId("explode").value = share;
         if (!this.stage.offsets) this.stage.setOffsets(this.models.map((_, which) => this.regions.offsets(which)));
         this.stage.setExplode(share);
+        this.measure.clear();
         this.showLines();
     }
 
     stretch(factor) {
         byId("stretch").value = factor;
         this.stage.setStretch(factor);
+        this.sayStretch();
+        this.measure.clear();
         this.updateSection();
         this.fit();
     }
@@ -200,8 +217,8 @@ export class Tools {
         if (region) {
             const which = hit?.which ?? region.first, measures = this.regions.measures[which][region.places[which]];
             const title = this.models.length > 1 ? `${region.title}, in ${"AB"[which]}` : region.title;
-            rows.push(["Region", title], ["Label", region.label], ["Volume", short(measures.volume)],
-                ["Area", short(measures.area)], ["Faces", grouped(measures.faces)], ["Neighbours", this.neighbourText(which, measures)]);
+            rows.push(["Region", title], ["Label", region.label], ["Volume", volumeText(measures.volume, this.data)],
+                ["Area", areaText(measures.area, this.data)], ["Faces", grouped(measures.faces)], ["Neighbours", this.neighbourText(which, measures)]);
         }
         if (hit) rows.push(...this.faceRows(hit));
         if (rows.length === 0) {
@@ -228,7 +245,7 @@ export class Tools {
         const f = model.surface.faceOf[face], pair = model.geometry.pairOfFace[f], found = interfaceMeasures(model, pair);
         const names = model.pairs[pair].slice(0, 2).map((label) => isolated(this.regions.titleAt(which, label)));
         const quality = faceQuality(model.positions, ...model.geometry.corners.subarray(3 * f, 3 * f + 3));
-        return [["Interface", `${names[0]} | ${names[1]}`], ["Its area", short(found.area)], ["Its faces", grouped(found.faces)],
+        return [["Interface", `${names[0]} | ${names[1]}`], ["Its area", areaText(found.area, this.data)], ["Its faces", grouped(found.faces)],
             ["Quality of the face", short(quality, 3)], ["Place", place]];
     }
 }

@@ -7,6 +7,16 @@ export function lengthText(number, { unit }) {
     return unit ? `${short(number)} ${factor}${unit}` : short(number);
 }
 
+/** A number and its unit to a power: 2 for areas, 3 for volumes. */
+export function powerText(number, power, { unit }, digits = 4) {
+    if (!unit) return short(number, digits);
+    const isNumber = /^[0-9]/.test(unit);
+    return `${short(number, digits)} ${isNumber ? `× (${unit})` : unit}${power === 2 ? "²" : "³"}`;
+}
+
+export const areaText = (number, data, digits) => powerText(number, 2, data, digits);
+export const volumeText = (number, data, digits) => powerText(number, 3, data, digits);
+
 /** Few files say their unit of length; the page has it where one was found or given. */
 export function unitText({ unit }) {
     if (!unit) return "Lengths, areas and volumes are in model units: those of the coordinates.";
