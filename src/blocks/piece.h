@@ -11,7 +11,7 @@
 #include "regionmesh/output_file.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/vec3.h"
-#include "simplify/collapse_log.h"
+#include "judge/collapse_log.h"
 
 namespace regionmesh {
 

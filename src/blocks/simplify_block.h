@@ -7,7 +7,7 @@
 #include "blocks/block_grid.h"
 #include "blocks/piece.h"
 #include "regionmesh/simplify.h"
-#include "simplify/collapse_log.h"
+#include "judge/collapse_log.h"
 #include "simplify/tuning.h"
 #include "stream/target.h"
 #include "surface/chunk.h"

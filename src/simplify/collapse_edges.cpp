@@ -7,14 +7,14 @@
 #include "base/box.h"
 #include "mesh/strata.h"
 #include "simplify/rank/candidates.h"
-#include "simplify/rank/try_together.h"
+#include "judge/try_together.h"
 #include "simplify/sweep/flat_vertices.h"
 #include "simplify/sweep/half_candidates.h"
 #include "simplify/sweep/prepass.h"
 #include "simplify/sweep/sweep_marks.h"
 #include "simplify/tuning.h"
-#include "simplify/verdict/quality.h"
-#include "simplify/verdict/verdicts.h"
+#include "judge/verdict/quality.h"
+#include "judge/verdict/verdicts.h"
 
 namespace regionmesh {
 namespace {

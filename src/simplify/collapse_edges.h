@@ -7,7 +7,7 @@
 
 #include "mesh/safe_interval.h"
 #include "regionmesh/simplify.h"
-#include "simplify/collapse.h"
+#include "judge/judge.h"
 
 namespace regionmesh {
 

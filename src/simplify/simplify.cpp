@@ -11,7 +11,7 @@
 #include "regionmesh/error.h"
 #include "regionmesh/mesh.h"
 #include "simplify/collapse_edges.h"
-#include "simplify/error_bound.h"
+#include "judge/error_bound.h"
 #include "simplify/tiles/mesh_chunk.h"
 #include "simplify/tiles/threshold_passes.h"
 

@@ -10,23 +10,6 @@
 
 namespace regionmesh {
 
-// --- Tests of shape --------------------------------------------------------------------------------------------------
-
-/// Cosine of the largest turn of a face, 78 degrees, and of the least angle between faces at an edge, 5 degrees (P
-/// tests 1 and 2).
-inline constexpr double kMinTurnCosine = 0.2, kMinDihedralCosine = 0.99619469809174555;
-
-/// A collapse that leaves fewer faces below the bound on quality than there were may make the worst of them this much
-/// worse, as long as it keeps this share of the bound. The smoothed AAL atlas to 342,342 and 124,440 faces: without the
-/// rule 0.0232 and 0.0842 rms, 157,000 and 243,000 refusals; with 0.8, two thirds and a half of the worst 0.0219 and
-/// 0.0763, 0.0744, 0.0748 rms, 57,000 and 117,000 refusals. A model stretched 200 times, to a tenth: without the rule
-/// 0.86 rms; with shares of 0, 0.2, 0.3 of the bound 1.27, 0.88, 0.86. A share of 0.5 leaves the atlas at 0.0825.
-inline constexpr double kLeastOfWorst = 2.0 / 3, kLeastOfBound = 0.3;
-
-/// A face rises along a direction if its unit normal has at least this component along it. More than the sine of 2.5
-/// degrees, so that two rising faces make more than 5 degrees at a common edge (IntersectTest).
-inline constexpr float kLeastRise = 0.05f;
-
 // --- Placement -------------------------------------------------------------------------------------------------------
 
 /// Share of the sum of weights that draws toward the middle of the edge. Makes flat stars have one answer, in floats
@@ -65,11 +48,6 @@ inline constexpr double kSameRank = 1.0001;
 /// Trim of a head of 2.1 million faces: 1.13 s in exact order; 0.91, 0.85, 0.80 and 0.77 s in sweeps of 0.5, 0.7, 1 and
 /// 1.5 times as many as have to go; rms 0.00058 in exact order and in sweeps of 0.5 to 1 times as many.
 inline constexpr std::uint32_t kLeastSweepPart = 1024, kMostSweepPart = 8;
-
-/// Such a sweep has at most so many stripes, and at least so many candidates in each
-/// (src/simplify/rank/try_together.h). With 128 stripes the trim of that head takes half as long again on one thread,
-/// and is no faster on two.
-inline constexpr std::uint32_t kMostStripes = 32, kLeastOfStripe = 32;
 
 // --- Prepass ---------------------------------------------------------------------------------------------------------
 

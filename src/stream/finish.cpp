@@ -6,7 +6,7 @@
 
 #include "base/option_range.h"
 #include "regionmesh/smooth.h"
-#include "simplify/error_bound.h"
+#include "judge/error_bound.h"
 #include "stream/stage_options.h"
 
 namespace regionmesh {

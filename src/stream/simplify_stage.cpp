@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "simplify/collapse_edges.h"
-#include "simplify/error_bound.h"
+#include "judge/error_bound.h"
 #include "simplify/tiles/threshold_passes.h"
 #include "stream/footprint.h"
 #include "stream/stage_options.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "regionmesh/simplify.h"
-#include "simplify/collapse.h"
+#include "judge/judge.h"
 
 namespace regionmesh {
 

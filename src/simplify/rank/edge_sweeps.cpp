@@ -4,7 +4,7 @@
 #include <bit>
 #include <vector>
 
-#include "simplify/rank/try_together.h"
+#include "judge/try_together.h"
 #include "simplify/tuning.h"
 
 namespace regionmesh {

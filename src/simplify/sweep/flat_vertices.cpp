@@ -4,8 +4,8 @@
 
 #include "simplify/sweep/sweep_marks.h"
 #include "simplify/tuning.h"
-#include "simplify/verdict/quality.h"
-#include "simplify/verdict/verdicts.h"
+#include "judge/verdict/quality.h"
+#include "judge/verdict/verdicts.h"
 
 namespace regionmesh {
 namespace {

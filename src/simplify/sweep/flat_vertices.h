@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "simplify/collapse.h"
+#include "judge/judge.h"
 
 namespace regionmesh {
 

@@ -7,10 +7,10 @@
 #include "base/parallel_for.h"
 #include "base/triangle.h"
 #include "mesh/strata.h"
-#include "simplify/rank/try_together.h"
+#include "judge/try_together.h"
 #include "simplify/tuning.h"
-#include "simplify/verdict/quality.h"
-#include "simplify/verdict/verdicts.h"
+#include "judge/verdict/quality.h"
+#include "judge/verdict/verdicts.h"
 
 namespace regionmesh {
 

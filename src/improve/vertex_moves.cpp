@@ -1,0 +1,143 @@
+#include "improve/vertex_moves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "mesh/strata.h"
+#include "judge/verdict/verdicts.h"
+
+namespace regionmesh {
+namespace {
+
+/// Of the places found, the best ones are tested.
+constexpr std::size_t kAttempts = 3;
+
+/// Shares of the way to a target, and along a line toward the next vertex.
+constexpr std::array kSteps{1.0, 0.5, 0.25, 0.1};
+constexpr std::array kLineSteps{0.05, 0.15, 0.3, 0.5};
+
+/// Height of an equilateral triangle of side 1.
+constexpr double kIdealHeight = 0.8660254037844386;
+
+/// The point above or below `target` along `up` on the star of faces from `apex` over the link; none where the target
+/// lies beyond the link. A sum of steps from the apex to corners of one face keeps coordinates that all of them have.
+std::optional<Vec3> point_on_star(const EdgeStar& star, Vec3 apex, Vec3 target, Vec3 up) {
+    const Vec3 step = target - apex;
+    for (int n = 0; n < star.face_count(); ++n) {
+        const Vec3 to_a = star.at_a(n) - apex, to_b = star.at_b(n) - apex;
+        const double turn = dot(up, cross(to_a, to_b));
+        if (turn <= 0) continue;
+        const double s = dot(up, cross(step, to_b)) / turn, t = dot(up, cross(to_a, step)) / turn;
+        if (s >= 0 && t >= 0 && s + t < 1) return apex + (s * to_a + t * to_b);
+    }
+    return {};
+}
+
+double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
+    const Vec3 along = b - a;
+    const double share = std::clamp(dot(p - a, along) / length2(along), 0.0, 1.0);
+    return length(p - (a + share * along));
+}
+
+}  // namespace
+
+/// The bound on quality is FanShape's.
+VertexMoves::VertexMoves(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const ImproveOptions& options)
+    : mesh_(mesh),
+      tree_(tree),
+      drift_(drift),
+      bound3_(options.min_quality * options.min_quality * options.min_quality),
+      collapse_{.mesh = mesh,
+                .tree = &tree,
+                .bounds = {.min_quality = 0},
+                .samples = options.samples ? &*options.samples : nullptr,
+                .max_error = options.max_error} {}
+
+bool VertexMoves::try_move(VertexId v) {
+    const Vertex& vertex = mesh_[v];
+    if (!vertex.is_alive || vertex.is_fixed || vertex.star == kNoCorner || vertex.label_count > 3) return false;
+    const EdgeStar& star = collapse_.star;
+    gather_move(mesh_, v, collapse_.star);
+    now_ = shape_at(star.at_goes);
+    drift_now_ = drift_.of(v);
+    for (VertexId w : star.link) drift_now_ = std::max(drift_now_, drift_.of(w));
+    candidates_.clear();
+    if (vertex.label_count == 3)
+        gather_line();
+    else if (star.is_interface)
+        gather_interface();
+    std::sort(candidates_.begin(), candidates_.end(),
+              [](const Candidate& a, const Candidate& b) { return a.energy < b.energy; });
+    for (std::size_t n = 0; n < std::min(candidates_.size(), kAttempts); ++n) {
+        const Candidate& best = candidates_[n];
+        if (verdict_at(collapse_, {best.at}) != Verdict::kAccepted) continue;
+        move_vertex(mesh_, collapse_);
+        drift_.set(v, drift_now_, best.step);
+        return true;
+    }
+    return false;
+}
+
+FanShape VertexMoves::shape_at(Vec3 p) const {
+    FanShape shape;
+    for (int n = 0; n < collapse_.star.face_count(); ++n) shape.add(p, collapse_.star.at_a(n), collapse_.star.at_b(n));
+    return shape;
+}
+
+void VertexMoves::add_candidate(Vec3 p, double step) {
+    if (!drift_.may_move(drift_now_, step, now_.worst3 < bound3_)) return;
+    const FanShape shape = shape_at(p);
+    if (shape.is_better_than(now_)) candidates_.push_back({p, shape.energy, step});
+}
+
+/// Along the two edges of the line that passes through the vertex.
+void VertexMoves::gather_line() {
+    gather_line_ends(mesh_, collapse_.star, line_ends_);
+    if (line_ends_.size() != 2) return;
+    const std::array<Vec3, 2> ends{mesh_.position(line_ends_[0]), mesh_.position(line_ends_[1])};
+    const Vec3 at = collapse_.star.at_goes;
+    for (int n = 0; n < 2; ++n)
+        for (double share : kLineSteps) {
+            const Vec3 p = at + share * (ends[n] - at);
+            add_candidate(p, distance_to_segment(at, p, ends[1 - n]));
+        }
+}
+
+/// Toward the middle of the link, toward the places where faces would be equilateral, and toward that of the worst.
+void VertexMoves::gather_interface() {
+    const EdgeStar& star = collapse_.star;
+    const Vec3 at = star.at_goes;
+    Vec3 up, middle, ideal, worst_ideal;
+    double lengths = 0, weights = 0, worst3 = 2;
+    for (int n = 0; n < star.face_count(); ++n) {
+        const Vec3 a = star.at_a(n), b = star.at_b(n), normal = area_vector(at, a, b);
+        up += normal;
+        const double side = length(b - a), size = length(normal);
+        lengths += side;
+        middle += (0.5 * side) * (a + b);
+        const Vec3 own = 0.5 * (a + b) + (size > 0 ? kIdealHeight / size * cross(normal, b - a) : Vec3{});
+        const double own3 = quality_terms(at, a, b).cube(), weight = 1 / std::max(own3, 1e-12);
+        ideal += weight * own;
+        weights += weight;
+        if (own3 < worst3) worst_ideal = own;
+        worst3 = std::min(worst3, own3);
+    }
+    if (length2(up) == 0) return;
+    for (Vec3 target : {middle / lengths, ideal / weights, worst_ideal}) add_steps_to(target, up);
+}
+
+void VertexMoves::add_steps_to(Vec3 target, Vec3 up) {
+    const EdgeStar& star = collapse_.star;
+    const Vec3 at = star.at_goes;
+    const double up_size = length(up);
+    for (double share : kSteps) {
+        const auto p = point_on_star(star, at, at + share * (target - at), up);
+        if (!p) continue;
+        const auto old = point_on_star(star, *p, at, up);
+        if (old) add_candidate(*p, std::abs(dot(up, *old - at)) / up_size);
+    }
+}
+
+}  // namespace regionmesh

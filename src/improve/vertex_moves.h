@@ -1,0 +1,46 @@
+// Moves of vertices within their stratum that make the faces round them better.
+#pragma once
+
+#include <vector>
+
+#include "regionmesh/improve.h"
+#include "judge/judge.h"
+#include "improve/fan_shape.h"
+#include "improve/surface_drift.h"
+
+namespace regionmesh {
+
+/// Tries moves one by one. Holds the scratch space of their tests. Requires Vertex::label_count (count_labels).
+class VertexMoves {
+public:
+    VertexMoves(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const ImproveOptions& options);
+
+    /// Moves the vertex to the best place found that no test refuses. The vertices around it are then those of link().
+    bool try_move(VertexId v);
+    const std::vector<VertexId>& link() const { return collapse_.star.link; }
+
+private:
+    struct Candidate {
+        Vec3 at;
+        double energy;  // of the faces with the vertex there
+        double step;    // by which the surface moves
+    };
+
+    FanShape shape_at(Vec3 p) const;
+    void gather_line();
+    void gather_interface();
+    void add_steps_to(Vec3 target, Vec3 up);
+    void add_candidate(Vec3 p, double step);
+
+    Mesh& mesh_;
+    FaceTree& tree_;
+    SurfaceDrift& drift_;
+    double bound3_;  // on quality, to the third power
+    Collapse collapse_;
+    FanShape now_;
+    float drift_now_ = 0;
+    std::vector<Candidate> candidates_;
+    std::vector<VertexId> line_ends_;
+};
+
+}  // namespace regionmesh
