@@ -143,6 +143,20 @@ TEST(Architecture, simplify_smooth_and_check_do_not_see_one_another) {
         }
 }
 
+TEST(Architecture, of_the_rooms_that_change_a_mesh_only_judge_writes_it) {
+    static const std::regex writes(R"re(\b(remove_face|move_star|remove_vertex|mesh_?\.add_face)\(|\]\.position = )re");
+    for (const char* room : {"simplify", "improve"})
+        for_sources(kLibrary / room, [&](const fs::path& file) {
+            std::ifstream stream(file);
+            int number = 0;
+            for (std::string line; std::getline(stream, line);) {
+                ++number;
+                EXPECT_FALSE(std::regex_search(line, writes))
+                    << file.string() << ':' << number << ": propose a Change, and let Judge::apply make it";
+            }
+        });
+}
+
 TEST(Architecture, public_headers_include_public_headers_only) {
     for_sources(kPublic, [&](const fs::path& file) {
         for (const std::string& include : includes_of(file))

@@ -47,7 +47,8 @@ PageOptions page_options(Command command, const Settings& settings, std::string 
     options.has_labels = has_labels;
     options.boundary_is_open = !settings.reconstruct.cap;
     options.min_quality = quality_bound;
-    if (command == kReconstruct || command == kDecimate) options.max_error = settings.reconstruct.max_error;
+    const double most = settings.reconstruct.promises.max_error;
+    if ((command == kReconstruct || command == kDecimate) && most < HUGE_VAL) options.max_error = most;
     options.preview_faces = settings.preview_faces;
     options.threads = settings.reconstruct.threads;
     return options;

@@ -1,31 +1,22 @@
 // Better shaped faces, the same surface: flips of edges and moves of vertices, for finite elements.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <functional>
-#include <optional>
 
-#include "regionmesh/lattice.h"
 #include "regionmesh/mesh.h"
-#include "regionmesh/simplify.h"
+#include "regionmesh/promises.h"
 
 namespace regionmesh {
 
 struct ImproveOptions {
-    double min_quality = 0.1;  // of faces: round those below, the surface may move farther and edges be collapsed
-    double scale = 1;          // length of a typical edge: the sample spacing, or typical_edge(mesh)
-    double tolerance = 0.1;    // share of the scale by which the surface may move, all steps together; three times as
-                               // much round faces below min_quality
-    double max_error = HUGE_VAL;             // limit of ImproveResult::error_bound, as of SimplifyOptions
-    std::uint32_t sweeps = 12;               // at most, over all edges and vertices
-    std::optional<Lattice> samples = {};     // no sample of it changes its region; as of SimplifyOptions
-    double scale_z = 1;                      // by which z of the mesh is multiplied: shapes are measured without it
+    Promises promises = {};     // round faces below the bound on quality, the surface may move farther and edges be
+                                // collapsed; max_error limits ImproveResult::error_bound
+    double tolerance = 0.1;     // share of the scale by which the surface may move, all steps together; three times as
+                                // much round faces below the bound
+    std::uint32_t sweeps = 12;  // most sweeps over all edges and vertices
     std::function<void()> on_progress = {};  // called now and then, on the calling thread
 };
-
-/// To improve what was simplified: the same scale, samples and bounds.
-ImproveOptions improve_options(const SimplifyOptions& simplified);
 
 /// The shape of all faces of a mesh. Angles are in degrees; all are 0 for a mesh without faces.
 struct FaceShapes {
@@ -42,12 +33,11 @@ struct ImproveResult {
 };
 
 /// Flips edges inside interfaces, moves vertices within their stratum (along interfaces and sides of the box, along
-/// lines; quadruple points, corners of the box and fixed vertices stay), and collapses edges of faces below
-/// min_quality. Each step passes the tests of a collapse (fold, pinch, intersect, and samples where a lattice is
-/// given), lowers no worst quality and lowers the sum of 1 / quality^3 of the faces that it changes, in which the worst
-/// faces count most. So no violation is added, and the worst quality of the mesh never falls. Deterministic. Requires
-/// that every vertex that is not fixed has all its faces in the mesh. Renumbers vertices and faces. Throws like
-/// simplify().
+/// lines; quadruple points, corners of the box and fixed vertices stay), and collapses edges of faces below the bound
+/// on quality. Each step keeps the promises, but for quality: it lowers no worst quality and lowers the sum of 1 /
+/// quality^3 of the faces that it changes, in which the worst faces count most. So no violation is added, and the worst
+/// quality of the mesh never falls. Deterministic. Requires that every vertex that is not fixed has all its faces in
+/// the mesh. Renumbers vertices and faces. Throws like simplify().
 ImproveResult improve(Mesh& mesh, const ImproveOptions& options);
 
 }  // namespace regionmesh

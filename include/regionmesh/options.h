@@ -159,9 +159,8 @@ bool has_target(const Settings& settings);
 /// `known`, with the unit of --units where it is given, and the space of --space where none is known.
 Coordinates with_units_and_space(const Settings& settings, Coordinates known);
 
-/// How to simplify and to smooth a whole model; without a target simplify() keeps all faces.
-SimplifyOptions simplify_options(const Settings& settings, const Mesh& mesh);
-SmoothOptions smooth_options(const Settings& settings, const Mesh& mesh);
+/// The target of a whole model in faces; all of them where none is given.
+std::uint32_t target_faces(const Settings& settings, const Mesh& mesh);
 
 /// How to read drill holes as layers.
 LayerOptions layer_options(const Settings& settings);

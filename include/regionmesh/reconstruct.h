@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "regionmesh/label_table.h"
 #include "regionmesh/limits.h"
 #include "regionmesh/mesh.h"
+#include "regionmesh/promises.h"
 #include "regionmesh/report.h"
 #include "regionmesh/section_reader.h"
 #include "regionmesh/simplify.h"
@@ -23,28 +23,26 @@ namespace regionmesh {
 struct ReconstructOptions {
     std::optional<std::uint64_t> target_faces = {};  // decimate to this number of faces or fewer
     std::optional<double> reduce = {};               // or remove this share of the faces, 0 to 1
-    std::optional<double> max_error = {};  // or no point farther than this from the surface before, nor the other way
-                                           // round, in the unit of the spacing
+    Promises promises = {};  // what decimation, smooth lines and improvement keep; smoothing keeps quality and
+                             // crossings. A largest error asks for decimation, too. Its scale, box and samples are set
+                             // from the run; where it has no bound on quality, decimation of sections, unless with
+                             // improve or preserve_volume, keeps usual_quality_bound (docs/explanation/decimate.md)
     double room = 0;  // of sections: samples nearer than this to the boundary of their region, in finest spacings, may
                       // change their label first, for noisy labels (docs/explanation/smoothing.md); at most 8; 0: none
     CellKind cells = CellKind::kAuto;  // of sections: how they are meshed
     double scale_z = 1;  // of sections: z is multiplied by the nearest power of two while positions, costs, qualities
                          // and errors are computed; the model is not scaled. Tetrahedra have their own
-    SmoothOptions smooth = {};               // its scale, quality, tests and threads are set from the run
-    std::optional<double> min_quality = {};  // of every face that smoothing or decimation changes; 0.1 if not given,
-                                             // and for decimation of sections, unless with improve or preserve_volume,
-                                             // 0.1 x smallest spacing / largest (docs/explanation/decimate.md)
-    double perturbation = 1e-7;              // of costs: share of scale^4, hashed from the edge (P 4.5)
+    SmoothOptions smooth = {};                          // its scale, quality, tests and threads are set from the run
+    double perturbation = 1e-7;                         // of costs: share of scale^4, hashed from the edge (P 4.5)
     PlacementKind placement = PlacementKind::kQuadric;  // where collapses put merged vertices
     bool keep_samples = true;                           // of sections: decimation carries no sample into another region
     bool smooth_lines = false;                          // a pass that smooths lines of three regions
     bool improve = false;                               // a last pass that makes faces better, for finite elements
-    bool preserve_volume = false;  // finally give each region its volume before smoothing and decimation
-    bool decimate = true;          // false: no decimation, even with a target
-    bool intersect_check = true;
-    bool cap = true;                                // --boundary cap; false: open
-    std::vector<InputLabel> background{0};          // empty space: its faces with the exterior are not made
-    std::uint64_t memory = kDefaultMemory;          // bytes that the work is planned for (docs/explanation/memory.md)
+    bool preserve_volume = false;           // finally give each region its volume before smoothing and decimation
+    bool decimate = true;                   // false: no decimation, even with a target
+    bool cap = true;                        // --boundary cap; false: open
+    std::vector<InputLabel> background{0};  // empty space: its faces with the exterior are not made
+    std::uint64_t memory = kDefaultMemory;  // bytes that the work is planned for (docs/explanation/memory.md)
     std::optional<std::uint64_t> face_budget = {};  // most faces held at once, instead of deriving it from memory
     std::uint32_t threads = 0;                      // 0: one per core. The result does not depend on it
     std::uint32_t strips_per_chunk = 1;  // strips meshed before they are merged; decimation in tiles sets its own

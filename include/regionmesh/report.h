@@ -12,7 +12,6 @@
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
 #include "regionmesh/smooth_lines.h"
-#include "regionmesh/verdict.h"
 #include "regionmesh/voxelise.h"
 
 namespace regionmesh {

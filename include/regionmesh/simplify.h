@@ -5,11 +5,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
 
-#include "regionmesh/lattice.h"
 #include "regionmesh/mesh.h"
-#include "regionmesh/verdict.h"
+#include "regionmesh/promises.h"
 
 namespace regionmesh {
 
@@ -21,48 +19,20 @@ enum class PlacementKind { kQuadric, kLindstromTurk };
 inline constexpr std::array<const char*, 2> kPlacementNames{"quadric", "lindstrom-turk"};
 
 struct SimplifyOptions {
-    std::uint32_t target_faces = 0;                              // stop at this number of faces or fewer
-    double max_cost = std::numeric_limits<double>::infinity();   // threshold: squared length times area
-    double max_error = std::numeric_limits<double>::infinity();  // no point farther off, either way: a length
-    double min_quality = 0.1;                                    // of changed faces; 0 for no bound
-    double perturbation = 1e-7;  // largest share of scale^4 added to a cost, hashed from the edge (P 4.5)
-    double scale = 1;            // length of a typical edge: the sample spacing, or typical_edge(mesh)
-    bool intersect_check = true;
+    std::uint32_t target_faces = 0;                             // stop at this number of faces or fewer
+    double max_cost = std::numeric_limits<double>::infinity();  // threshold: squared length times area
+    Promises promises = {};
+    double perturbation = 1e-7;   // largest share of scale^4 added to a cost, hashed from the edge (P 4.5)
     bool bounds_regions = false;  // asserts that each face has its first label behind it and its second in front of
                                   // it, everywhere; collapses are then tested faster, with the same result
     bool removes_folds = false;   // faces beside lines that are turned over, as smoothing inside the lattice leaves
                                   // them, go early, at a cost of up to scale^4
     PlacementKind placement = PlacementKind::kQuadric;
-    std::optional<Lattice> samples = {};  // no sample of it changes its region, no merged vertex leaves its box; along
-                                          // the axes of coordinates, as BoxAxes::samples() is
-    std::optional<Box> box = {};          // no merged vertex leaves it; for models that no faces close on its sides
-    std::uint32_t threads = 0;            // at work at a time; 0: one per core. The result is the same
+    std::uint32_t threads = 0;  // at work at a time; 0: one per core. The result is the same
     /// Called now and then, on the calling thread, with the number of faces that are left; while tiles are simplified,
     /// with that before each of the two stages.
     std::function<void(std::uint64_t faces)> on_progress = {};
 };
-
-/// The bound on quality where none is given: that of SimplifyOptions for cubes of samples, and less where `spacing`
-/// stretches them. A face of that quality keeps this at least when its lattice of cubes is stretched.
-double usual_quality_bound(const Vec3& spacing);
-
-/// Why decimation ended; kNoneAsked where there was none.
-enum class StopReason { kTarget, kMaxError, kTopology, kNoneAsked };
-
-/// As reports have it: "target", "max_error", "topology", "none asked".
-constexpr const char* to_string(StopReason reason) {
-    switch (reason) {
-        case StopReason::kTarget:
-            return "target";
-        case StopReason::kMaxError:
-            return "max_error";
-        case StopReason::kTopology:
-            return "topology";
-        case StopReason::kNoneAsked:
-            break;
-    }
-    return "none asked";
-}
 
 struct SimplifyResult {
     VerdictCounts verdicts{};       // strata: edges that cannot be candidates, counted once a refresh

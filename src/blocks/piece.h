@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
+#include "judge/collapse_log.h"
 #include "regionmesh/label.h"
 #include "regionmesh/output_file.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/vec3.h"
-#include "judge/collapse_log.h"
 
 namespace regionmesh {
 

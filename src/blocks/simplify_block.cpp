@@ -78,7 +78,7 @@ CollapseResult collapse_whole(BlockChunk& block, const SimplifyOptions& options,
 
 SimplifyOptions up_to(double threshold, const BlockSimplifyOptions& options) {
     SimplifyOptions own = options.simplify;
-    own.max_cost = std::min(own.max_cost, threshold * std::pow(own.scale, 4));
+    own.max_cost = std::min(own.max_cost, threshold * std::pow(own.promises.scale, 4));
     return own;
 }
 

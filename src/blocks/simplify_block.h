@@ -6,8 +6,8 @@
 
 #include "blocks/block_grid.h"
 #include "blocks/piece.h"
-#include "regionmesh/simplify.h"
 #include "judge/collapse_log.h"
+#include "regionmesh/simplify.h"
 #include "simplify/tuning.h"
 #include "stream/target.h"
 #include "surface/chunk.h"

@@ -7,12 +7,12 @@
 
 #include "base/option_range.h"
 #include "base/triangle.h"
-#include "mesh/strata.h"
-#include "regionmesh/box_axes.h"
 #include "improve/edge_flips.h"
-#include "judge/error_bound.h"
 #include "improve/short_edges.h"
 #include "improve/vertex_moves.h"
+#include "judge/error_bound.h"
+#include "mesh/strata.h"
+#include "regionmesh/box_axes.h"
 
 namespace regionmesh {
 namespace {
@@ -45,11 +45,13 @@ public:
     ImproveLoop(Mesh& mesh, const ImproveOptions& options)
         : mesh_(mesh),
           options_(options),
-          tree_(mesh),
-          drift_(mesh.vertex_end(), options.tolerance * options.scale),
-          flips_(mesh, tree_, drift_, options),
-          moves_(mesh, tree_, drift_, options),
-          short_edges_(mesh, tree_, drift_, options),
+          kept_(kept_of(mesh, options)),
+          judge_(mesh, kept_),
+          poor_(options.promises.quality_bound()),
+          drift_(mesh.vertex_end(), options.tolerance * kept_.scale),
+          flips_(judge_, drift_, poor_),
+          moves_(judge_, drift_, poor_),
+          short_edges_(judge_, drift_),
           changed_(mesh.vertex_end(), 0) {}
 
     void run(ImproveResult& result) {
@@ -64,6 +66,17 @@ public:
     }
 
 private:
+    /// The promises, but for quality: FanShape demands more. No faces may cross, whatever the options say: few changes
+    /// are made here, so that the test costs little. Moves add to the error within the tolerance alone.
+    static Promises kept_of(const Mesh& mesh, const ImproveOptions& options) {
+        Promises kept = options.promises;
+        kept.min_quality = 0;
+        kept.intersect_check = true;
+        kept.max_error = std::min(
+            kept.max_error, largest_error_bound(mesh) + SurfaceDrift::kPoorShare * options.tolerance * kept.scale);
+        return kept;
+    }
+
     /// Has something near the vertex changed in this sweep or the one before?
     bool is_fresh(VertexId v) const { return changed_[index(v)] + 1 >= now_; }
     void note(VertexId v) { changed_[index(v)] = now_; }
@@ -97,7 +110,7 @@ private:
             const FaceId f{n};
             if (!mesh_.is_alive(f) || !is_fresh(f)) continue;
             const auto p = mesh_.corners(f);
-            if (face_quality(p[0], p[1], p[2]) >= options_.min_quality || !short_edges_.try_collapse(f)) continue;
+            if (face_quality(p[0], p[1], p[2]) >= poor_ || !short_edges_.try_collapse(f)) continue;
             for (VertexId w : short_edges_.changed()) note(w);
             ++count;
         }
@@ -116,9 +129,11 @@ private:
         return count;
     }
 
-    Mesh& mesh_;
+    const Mesh& mesh_;
     const ImproveOptions& options_;
-    FaceTree tree_;
+    Promises kept_;
+    Judge judge_;
+    double poor_;  // quality below which faces are poor
     SurfaceDrift drift_;
     EdgeFlips flips_;
     VertexMoves moves_;
@@ -127,37 +142,24 @@ private:
     std::uint32_t now_ = 0;
 };
 
-void require_in_range(const ImproveOptions& options) {
-    require_number("min_quality", options.min_quality, kQualityRange);
-    require_number("scale", options.scale, kPositive);
+void require_options(const ImproveOptions& options) {
+    require_in_range(options.promises);
     require_number("tolerance", options.tolerance, kNotNegative);
-    require_number("max_error", options.max_error, kNotNegativeOrInfinite);
-    require_number("scale_z", options.scale_z, kPositive);
-    if (options.samples) require_along_axes("samples", *options.samples);
 }
 
 }  // namespace
 
-ImproveOptions improve_options(const SimplifyOptions& simplified) {
-    return {.min_quality = simplified.min_quality,
-            .scale = simplified.scale,
-            .max_error = simplified.max_error,
-            .samples = simplified.samples};
-}
-
-ImproveResult improve(Mesh& mesh, const ImproveOptions& given) {
-    require_in_range(given);
+ImproveResult improve(Mesh& mesh, const ImproveOptions& options) {
+    require_options(options);
     require_along_axes(mesh);
-    ImproveOptions options = given;
-    options.max_error =
-        std::min(given.max_error, largest_error_bound(mesh) + SurfaceDrift::kPoorShare * given.tolerance * given.scale);
+    const double bound = options.promises.quality_bound(), scale_z = options.promises.scale_z;
     ImproveResult result;
-    result.before = shapes_of(mesh, options.min_quality, options.scale_z);
+    result.before = shapes_of(mesh, bound, scale_z);
     mesh.sort_spatially();
     count_labels(mesh);
     ImproveLoop(mesh, options).run(result);
     if (result.collapses > 0) mesh.compact();
-    result.after = shapes_of(mesh, options.min_quality, options.scale_z);
+    result.after = shapes_of(mesh, bound, scale_z);
     result.error_bound = largest_error_bound(mesh);
     return result;
 }

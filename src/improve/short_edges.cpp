@@ -10,15 +10,7 @@
 
 namespace regionmesh {
 
-/// The bound on quality is FanShape's.
-ShortEdges::ShortEdges(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const ImproveOptions& options)
-    : mesh_(mesh),
-      drift_(drift),
-      collapse_{.mesh = mesh,
-                .tree = &tree,
-                .bounds = {.min_quality = 0},
-                .samples = options.samples ? &*options.samples : nullptr,
-                .max_error = options.max_error} {}
+ShortEdges::ShortEdges(Judge& judge, SurfaceDrift& drift) : judge_(judge), mesh_(judge.mesh()), drift_(drift) {}
 
 bool ShortEdges::try_collapse(FaceId f) {
     const auto v = mesh_[f].vertices;
@@ -36,9 +28,9 @@ bool ShortEdges::try_collapse(FaceId f) {
 bool ShortEdges::try_edge(VertexId goes, VertexId stays) {
     if (mesh_[goes].is_fixed || mesh_[stays].is_fixed || mesh_[goes].label_count > mesh_[stays].label_count)
         return false;
-    gather(mesh_, goes, stays, collapse_.star);
-    if (topology_verdict(collapse_) != Verdict::kAccepted) return false;
-    const EdgeStar& star = collapse_.star;
+    gather(mesh_, goes, stays, change_.star);
+    if (topology_verdict(judge_, change_) != Verdict::kAccepted) return false;
+    const EdgeStar& star = change_.star;
     if (try_place(star.at_stays)) return true;
     const bool is_alike =
         mesh_[goes].label_count == mesh_[stays].label_count && mesh_[goes].sides == mesh_[stays].sides;
@@ -46,7 +38,7 @@ bool ShortEdges::try_edge(VertexId goes, VertexId stays) {
 }
 
 bool ShortEdges::try_place(Vec3 p) {
-    const EdgeStar& star = collapse_.star;
+    const EdgeStar& star = change_.star;
     FanShape before, after;
     for (int n = 0; n < star.face_count(); ++n) {
         before.add(star.at_apex(n), star.at_a(n), star.at_b(n));
@@ -60,18 +52,17 @@ bool ShortEdges::try_place(Vec3 p) {
     float drift = std::max(drift_.of(star.goes), drift_.of(star.stays));
     for (VertexId w : star.link) drift = std::max(drift, drift_.of(w));
     const double step = step_to(p);
-    if (!drift_.may_move(drift, step, true) || verdict_at(collapse_, {p}) != Verdict::kAccepted) return false;
+    if (!drift_.may_move(drift, step, true) || verdict_at(judge_, change_, {p}) != Verdict::kAccepted) return false;
     changed_ = star.link;
     changed_.push_back(star.stays);
-    find_error(collapse_);
-    collapse_edge(mesh_, collapse_);
+    judge_.apply(change_);
     drift_.set(star.stays, drift, step);
     return true;
 }
 
 /// How far the merged vertex is from the planes of the faces that move, or from the end that goes farther.
 double ShortEdges::step_to(Vec3 p) const {
-    const EdgeStar& star = collapse_.star;
+    const EdgeStar& star = change_.star;
     double step = 0;
     for (int n = 0; n < star.face_count(); ++n) {
         const StarPair& pair = star.pairs[n / 2];

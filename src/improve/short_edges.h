@@ -4,16 +4,15 @@
 #include <optional>
 #include <vector>
 
-#include "regionmesh/improve.h"
-#include "judge/judge.h"
 #include "improve/surface_drift.h"
+#include "judge/judge.h"
 
 namespace regionmesh {
 
 /// Tries faces one by one. Holds the scratch space of their tests. Requires Vertex::label_count (count_labels).
 class ShortEdges {
 public:
-    ShortEdges(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const ImproveOptions& options);
+    ShortEdges(Judge& judge, SurfaceDrift& drift);
 
     /// Collapses an edge of the face, the shortest first, where that makes the faces around better and no test refuses
     /// it. The merged vertex and those around it are then those of changed().
@@ -25,9 +24,10 @@ private:
     bool try_place(Vec3 p);
     double step_to(Vec3 p) const;
 
-    Mesh& mesh_;
+    Judge& judge_;
+    const Mesh& mesh_;
     SurfaceDrift& drift_;
-    Collapse collapse_;
+    Change change_;
     std::vector<VertexId> changed_;
 };
 

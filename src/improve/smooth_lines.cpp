@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "base/option_range.h"
-#include "mesh/strata.h"
-#include "regionmesh/box_axes.h"
 #include "judge/error_bound.h"
 #include "judge/try_together.h"
 #include "judge/verdict/verdicts.h"
+#include "mesh/strata.h"
+#include "regionmesh/box_axes.h"
 
 namespace regionmesh {
 namespace {
@@ -62,14 +62,9 @@ public:
     LineSmoother(Mesh& mesh, const SmoothLinesOptions& options)
         : mesh_(mesh),
           options_(options),
-          tree_(mesh, options.threads),
-          number_(mesh.vertex_end(), kNoNumber),
-          trial_{{.mesh = mesh,
-                  .tree = &tree_,
-                  .bounds = {.min_quality = options.min_quality},
-                  .limits = limits_of(options.box, options.samples),
-                  .samples = options.samples ? &*options.samples : nullptr,
-                  .max_error = options.max_error}} {
+          kept_(kept_of(mesh, options)),
+          judge_(mesh, kept_, {.threads = options.threads}),
+          number_(mesh.vertex_end(), kNoNumber) {
         for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
             report_progress(v);
             find_ends(VertexId{v});
@@ -92,6 +87,14 @@ public:
     }
 
 private:
+    /// The promises; no faces may cross, whatever the options say. The error rises by no more than the moves.
+    static Promises kept_of(const Mesh& mesh, const SmoothLinesOptions& options) {
+        Promises kept = options.promises;
+        kept.intersect_check = true;
+        kept.max_error = std::min(kept.max_error, largest_error_bound(mesh) + kMostMove * kept.scale);
+        return kept;
+    }
+
     struct LineVertex {
         VertexId v;
         std::uint32_t count = 0;
@@ -103,7 +106,7 @@ private:
 
     /// A step of one of them.
     struct Trial {
-        Collapse collapse;
+        Change change = {};
         Box box = {};  // see try_together
         Vec3 goal = {};
         enum class Outcome : std::uint8_t { kNone, kAccepted, kRefused } outcome = Outcome::kNone;
@@ -119,8 +122,8 @@ private:
         if (!vertex.is_alive || vertex.is_fixed || vertex.star == kNoCorner) return;
         if ((vertex.sides & kOnHull) != 0 || std::popcount(static_cast<unsigned>(vertex.sides & kBoxSides)) > 1) return;
         if (vertex.label_count < 3 || vertex.label_count > 4) return;
-        gather_move(mesh_, v, trial_.collapse.star);
-        gather_line_ends(mesh_, trial_.collapse.star, ends_);
+        gather_move(mesh_, v, trial_.change.star);
+        gather_line_ends(mesh_, trial_.change.star, ends_);
         if (ends_.size() != (vertex.label_count == 3 ? 2 : 4)) return;
         LineVertex own{.v = v, .count = static_cast<std::uint32_t>(ends_.size()), .origin = vertex.position};
         std::copy(ends_.begin(), ends_.end(), own.ends.begin());
@@ -141,7 +144,7 @@ private:
                 LineVertex& own = vertices_[due[n]];
                 if (trial.outcome == Trial::Outcome::kRefused) own.refused = trial.goal;
                 if (trial.outcome != Trial::Outcome::kAccepted) return false;
-                move_vertex(mesh_, trial.collapse);
+                judge_.apply(trial.change);
                 note_moved(own);
                 ++moves;
                 return true;
@@ -186,7 +189,7 @@ private:
             if (g > 0) energy.add(2 / (g + h[n]), 1 / h[n], onward / g - p[n] / h[n]);
         }
         if (own.count == 2) energy.add(1 / reach, -(1 / h[0] + 1 / h[1]), p[0] / h[0] + p[1] / h[1]);
-        const double scale2 = options_.scale * options_.scale;
+        const double scale2 = kept_.scale * kept_.scale;
         energy.add(kKeep * reach / (scale2 * scale2), 1, -own.origin);
 
         Vec3 step = energy.least() - at;
@@ -195,7 +198,7 @@ private:
             if (length2(along) > 0) step = step - (dot(step, along) / length2(along)) * along;
         }
         Vec3 moved = at + step - own.origin;
-        const double most = kMostMove * options_.scale, size = length(moved);
+        const double most = kMostMove * kept_.scale, size = length(moved);
         if (size > most) moved = (most / size) * moved;
         Vec3 goal = own.origin + moved;
         for (int axis = 0; axis < 3; ++axis)
@@ -206,13 +209,13 @@ private:
     /// If the vertex after the next one along a line moves at the same time, the goal is that of before: then the
     /// vertex is due again.
     void test(LineVertex& own, Trial& trial) const {
-        const double least = kLeastStep * options_.scale;
+        const double least = kLeastStep * kept_.scale;
         const Vec3 at = mesh_.position(own.v), goal = goal_of(own);
         own.is_due = false;
         trial.outcome = Trial::Outcome::kNone;
         trial.box = {at, at};
         if (length(goal - at) < least || length(goal - own.refused) < least) return;
-        EdgeStar& star = trial.collapse.star;
+        EdgeStar& star = trial.change.star;
         gather_move(mesh_, own.v, star);
         trial.box.add(star.link_box.low);
         trial.box.add(star.link_box.high);
@@ -222,7 +225,7 @@ private:
         for (const double share : kShares) {
             const Vec3 to = star.kept_level(share == 1 ? goal : at + share * (goal - at));
             set_normals(star, to);
-            if (!area_grows(star) && verdict_at(trial.collapse, {to}) == Verdict::kAccepted) return;
+            if (!area_grows(star) && verdict_at(judge_, trial.change, {to}) == Verdict::kAccepted) return;
         }
         trial.outcome = Trial::Outcome::kRefused;
     }
@@ -232,7 +235,7 @@ private:
         std::uint64_t count = 0;
         const auto place = [&](VertexId v) {
             Vec3 p = mesh_.position(v);
-            p.z /= options_.scale_z;
+            p.z /= kept_.scale_z;
             return p;
         };
         for (const LineVertex& vertex : vertices_) {
@@ -244,39 +247,21 @@ private:
         return count > 0 ? sum / static_cast<double>(count) * 180 / std::numbers::pi : 0;
     }
 
-    Mesh& mesh_;
+    const Mesh& mesh_;
     const SmoothLinesOptions& options_;
-    FaceTree tree_;
+    Promises kept_;
+    Judge judge_;
     std::vector<std::uint32_t> number_;  // by vertex: place in vertices_
     std::vector<LineVertex> vertices_;
     Trial trial_;
     std::vector<VertexId> ends_;
 };
 
-void require_in_range(const SmoothLinesOptions& options) {
-    require_number("min_quality", options.min_quality, kQualityRange);
-    require_number("scale", options.scale, kPositive);
-    require_number("max_error", options.max_error, kNotNegativeOrInfinite);
-    require_number("scale_z", options.scale_z, kPositive);
-    if (options.samples) require_along_axes("samples", *options.samples);
-}
-
 }  // namespace
 
-SmoothLinesOptions smooth_lines_options(const SimplifyOptions& simplified) {
-    return {.scale = simplified.scale,
-            .min_quality = simplified.min_quality,
-            .max_error = simplified.max_error,
-            .threads = simplified.threads,
-            .samples = simplified.samples,
-            .box = simplified.box};
-}
-
-SmoothLinesResult smooth_lines(Mesh& mesh, const SmoothLinesOptions& given) {
-    require_in_range(given);
+SmoothLinesResult smooth_lines(Mesh& mesh, const SmoothLinesOptions& options) {
+    require_in_range(options.promises);
     require_along_axes(mesh);
-    SmoothLinesOptions options = given;
-    options.max_error = std::min(given.max_error, largest_error_bound(mesh) + kMostMove * given.scale);
     SmoothLinesResult result;
     count_labels(mesh, options.threads);
     LineSmoother(mesh, options).run(result);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "mesh/strata.h"
 #include "judge/verdict/verdicts.h"
+#include "mesh/strata.h"
 
 namespace regionmesh {
 namespace {
@@ -43,23 +43,14 @@ double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
 
 }  // namespace
 
-/// The bound on quality is FanShape's.
-VertexMoves::VertexMoves(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const ImproveOptions& options)
-    : mesh_(mesh),
-      tree_(tree),
-      drift_(drift),
-      bound3_(options.min_quality * options.min_quality * options.min_quality),
-      collapse_{.mesh = mesh,
-                .tree = &tree,
-                .bounds = {.min_quality = 0},
-                .samples = options.samples ? &*options.samples : nullptr,
-                .max_error = options.max_error} {}
+VertexMoves::VertexMoves(Judge& judge, SurfaceDrift& drift, double poor)
+    : judge_(judge), mesh_(judge.mesh()), drift_(drift), poor3_(poor * poor * poor) {}
 
 bool VertexMoves::try_move(VertexId v) {
     const Vertex& vertex = mesh_[v];
     if (!vertex.is_alive || vertex.is_fixed || vertex.star == kNoCorner || vertex.label_count > 3) return false;
-    const EdgeStar& star = collapse_.star;
-    gather_move(mesh_, v, collapse_.star);
+    const EdgeStar& star = change_.star;
+    gather_move(mesh_, v, change_.star);
     now_ = shape_at(star.at_goes);
     drift_now_ = drift_.of(v);
     for (VertexId w : star.link) drift_now_ = std::max(drift_now_, drift_.of(w));
@@ -72,8 +63,8 @@ bool VertexMoves::try_move(VertexId v) {
               [](const Candidate& a, const Candidate& b) { return a.energy < b.energy; });
     for (std::size_t n = 0; n < std::min(candidates_.size(), kAttempts); ++n) {
         const Candidate& best = candidates_[n];
-        if (verdict_at(collapse_, {best.at}) != Verdict::kAccepted) continue;
-        move_vertex(mesh_, collapse_);
+        if (verdict_at(judge_, change_, {best.at}) != Verdict::kAccepted) continue;
+        judge_.apply(change_);
         drift_.set(v, drift_now_, best.step);
         return true;
     }
@@ -82,22 +73,22 @@ bool VertexMoves::try_move(VertexId v) {
 
 FanShape VertexMoves::shape_at(Vec3 p) const {
     FanShape shape;
-    for (int n = 0; n < collapse_.star.face_count(); ++n) shape.add(p, collapse_.star.at_a(n), collapse_.star.at_b(n));
+    for (int n = 0; n < change_.star.face_count(); ++n) shape.add(p, change_.star.at_a(n), change_.star.at_b(n));
     return shape;
 }
 
 void VertexMoves::add_candidate(Vec3 p, double step) {
-    if (!drift_.may_move(drift_now_, step, now_.worst3 < bound3_)) return;
+    if (!drift_.may_move(drift_now_, step, now_.worst3 < poor3_)) return;
     const FanShape shape = shape_at(p);
     if (shape.is_better_than(now_)) candidates_.push_back({p, shape.energy, step});
 }
 
 /// Along the two edges of the line that passes through the vertex.
 void VertexMoves::gather_line() {
-    gather_line_ends(mesh_, collapse_.star, line_ends_);
+    gather_line_ends(mesh_, change_.star, line_ends_);
     if (line_ends_.size() != 2) return;
     const std::array<Vec3, 2> ends{mesh_.position(line_ends_[0]), mesh_.position(line_ends_[1])};
-    const Vec3 at = collapse_.star.at_goes;
+    const Vec3 at = change_.star.at_goes;
     for (int n = 0; n < 2; ++n)
         for (double share : kLineSteps) {
             const Vec3 p = at + share * (ends[n] - at);
@@ -107,7 +98,7 @@ void VertexMoves::gather_line() {
 
 /// Toward the middle of the link, toward the places where faces would be equilateral, and toward that of the worst.
 void VertexMoves::gather_interface() {
-    const EdgeStar& star = collapse_.star;
+    const EdgeStar& star = change_.star;
     const Vec3 at = star.at_goes;
     Vec3 up, middle, ideal, worst_ideal;
     double lengths = 0, weights = 0, worst3 = 2;
@@ -129,7 +120,7 @@ void VertexMoves::gather_interface() {
 }
 
 void VertexMoves::add_steps_to(Vec3 target, Vec3 up) {
-    const EdgeStar& star = collapse_.star;
+    const EdgeStar& star = change_.star;
     const Vec3 at = star.at_goes;
     const double up_size = length(up);
     for (double share : kSteps) {

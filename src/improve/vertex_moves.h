@@ -3,21 +3,21 @@
 
 #include <vector>
 
-#include "regionmesh/improve.h"
-#include "judge/judge.h"
 #include "improve/fan_shape.h"
 #include "improve/surface_drift.h"
+#include "judge/judge.h"
 
 namespace regionmesh {
 
 /// Tries moves one by one. Holds the scratch space of their tests. Requires Vertex::label_count (count_labels).
 class VertexMoves {
 public:
-    VertexMoves(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const ImproveOptions& options);
+    /// `poor` is the bound on quality below which faces count as poor (SurfaceDrift).
+    VertexMoves(Judge& judge, SurfaceDrift& drift, double poor);
 
     /// Moves the vertex to the best place found that no test refuses. The vertices around it are then those of link().
     bool try_move(VertexId v);
-    const std::vector<VertexId>& link() const { return collapse_.star.link; }
+    const std::vector<VertexId>& link() const { return change_.star.link; }
 
 private:
     struct Candidate {
@@ -32,11 +32,11 @@ private:
     void add_steps_to(Vec3 target, Vec3 up);
     void add_candidate(Vec3 p, double step);
 
-    Mesh& mesh_;
-    FaceTree& tree_;
+    Judge& judge_;
+    const Mesh& mesh_;
     SurfaceDrift& drift_;
-    double bound3_;  // on quality, to the third power
-    Collapse collapse_;
+    double poor3_;  // to the third power
+    Change change_;
     FanShape now_;
     float drift_now_ = 0;
     std::vector<Candidate> candidates_;

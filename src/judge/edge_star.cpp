@@ -69,7 +69,8 @@ void gather_link(const Mesh& mesh, EdgeStar& star) {
         for (VertexId apex : star.apexes) add_to_link(star, apex);
 }
 
-void start(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
+void start(const Mesh& mesh, StarKind kind, VertexId goes, VertexId stays, EdgeStar& star) {
+    star.kind = kind;
     star.goes = goes;
     star.stays = stays;
     star.at_goes = mesh.position(goes);
@@ -90,8 +91,8 @@ void add_faces_of_goes(const Mesh& mesh, EdgeStar& star) {
     });
 }
 
-void gather_faces_of_goes(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
-    start(mesh, goes, stays, star);
+void gather_faces_of_goes(const Mesh& mesh, StarKind kind, VertexId goes, VertexId stays, EdgeStar& star) {
+    start(mesh, kind, goes, stays, star);
     star.keeps_stays = true;
     add_faces_of_goes(mesh, star);
     star.is_interface = is_one_interface(mesh, star);
@@ -126,7 +127,7 @@ bool is_in_one_plane(const EdgeStar& star) {
 }  // namespace
 
 void gather(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
-    start(mesh, goes, stays, star);
+    start(mesh, StarKind::kCollapse, goes, stays, star);
     star.keeps_stays = false;
     add_faces_of_goes(mesh, star);
     mesh.for_star(stays, [&](FaceId f, int place) {
@@ -140,16 +141,16 @@ void gather(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
 }
 
 void gather_vertex(const Mesh& mesh, VertexId goes, EdgeStar& star) {
-    gather_faces_of_goes(mesh, goes, kNoVertex, star);
+    gather_faces_of_goes(mesh, StarKind::kVertex, goes, kNoVertex, star);
 }
 
 void gather_half(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
-    gather_faces_of_goes(mesh, goes, stays, star);
+    gather_faces_of_goes(mesh, StarKind::kHalf, goes, stays, star);
     gather_link(mesh, star);
 }
 
 void gather_move(const Mesh& mesh, VertexId v, EdgeStar& star) {
-    gather_faces_of_goes(mesh, v, kNoVertex, star);
+    gather_faces_of_goes(mesh, StarKind::kMove, v, kNoVertex, star);
     star.stays = v;
     star.keeps_stays = false;
     for (const StarFace& face : star.faces) {
@@ -159,13 +160,39 @@ void gather_move(const Mesh& mesh, VertexId v, EdgeStar& star) {
 }
 
 void gather_flip(const Mesh& mesh, const Flip& flip, EdgeStar& star) {
-    start(mesh, flip.c, flip.c, star);
+    start(mesh, StarKind::kFlip, flip.c, flip.c, star);
     star.at_goes = 0.5 * (mesh.position(flip.u) + mesh.position(flip.v));
     star.keeps_stays = true;
     star.is_interface = true;
     star.faces = {{flip.g, flip.u, flip.d, flip.c}, {flip.g, flip.d, flip.v, flip.c}};
     star.link = {flip.u, flip.d, flip.v};
     measure(mesh, star);
+}
+
+void gather_split(const Mesh& mesh, VertexId u, VertexId v, VertexId m, EdgeStar& star, std::vector<FaceId>& split) {
+    start(mesh, StarKind::kSplit, m, m, star);
+    star.keeps_stays = false;
+    split.clear();
+    mesh.for_star(u, [&](FaceId f, int place) {
+        const auto& corners = mesh[f].vertices;
+        const VertexId after = corners[place_after(place)], before = corners[place_before(place)];
+        if (after != v && before != v) return;
+        split.push_back(f);
+        const VertexId apex = after == v ? before : after;
+        if (after == v) {  // (u, v, apex) becomes (m, apex, u) and (m, v, apex)
+            star.faces.push_back({f, apex, u, m});
+            star.faces.push_back({f, v, apex, m});
+        } else {  // (u, apex, v) becomes (m, u, apex) and (m, apex, v)
+            star.faces.push_back({f, u, apex, m});
+            star.faces.push_back({f, apex, v, m});
+        }
+    });
+    star.is_interface = is_one_interface(mesh, star);
+    measure(mesh, star);
+    for (const StarFace& face : star.faces) {
+        add_to_link(star, face.a);
+        add_to_link(star, face.b);
+    }
 }
 
 void gather_line_ends(const Mesh& mesh, const EdgeStar& star, std::vector<VertexId>& ends) {

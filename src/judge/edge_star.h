@@ -1,6 +1,7 @@
 // The faces and vertices round an edge that a collapse changes.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "base/lanes.h"
@@ -26,8 +27,19 @@ struct StarPair {
     Double2 new_length2;
 };
 
+/// What the star is of: which faces are in it, and how they change.
+enum class StarKind : std::uint8_t {
+    kCollapse,  // gather: all faces of both ends; `goes` and `stays` merge
+    kHalf,      // gather_half: the faces of `goes`, which goes to `stays`
+    kVertex,    // gather_vertex: the faces of `goes`, before its target is known
+    kMove,      // gather_move: the faces of one vertex, which moves
+    kFlip,      // gather_flip: the two faces that a flip makes
+    kSplit,     // gather_split: the faces that a new vertex on an edge makes, which moves
+};
+
 /// The star of the edge goes-stays: reused from collapse to collapse, so that nothing is allocated in the long run.
 struct EdgeStar {
+    StarKind kind;
     VertexId goes, stays;
     Vec3 at_goes, at_stays;
     std::vector<StarFace> faces;
@@ -86,8 +98,12 @@ struct Flip {
 };
 
 /// Collects the two faces (c, u, d) and (c, d, v) that a flip makes, as half the collapse onto c of a vertex in the
-/// middle of u-v. Requires, for the tests, that f and g are not in the tree of faces.
+/// middle of u-v.
 void gather_flip(const Mesh& mesh, const Flip& flip, EdgeStar& star);
+
+/// Collects the faces that vertex m makes, which has no faces yet, when it is put on the edge u-v: two of each face
+/// there, which `split` gets. A move of m from where it is, on the edge.
+void gather_split(const Mesh& mesh, VertexId u, VertexId v, VertexId m, EdgeStar& star, std::vector<FaceId>& split);
 
 /// Fills in the normals that the surviving faces would have with the merged vertex at `position`.
 void set_normals(EdgeStar& star, Vec3 position);

@@ -1,97 +1,84 @@
-// One collapse: what its tests look at, and the mesh and its tree afterwards.
+// The only writer of a mesh: makes the changes that the tests accept.
 #pragma once
 
 #include <optional>
 
 #include "base/box.h"
-#include "mesh/face_tree.h"
-#include "regionmesh/lattice.h"
+#include "judge/change.h"
 #include "judge/collapse_log.h"
-#include "judge/edge_star.h"
-#include "judge/error_bound.h"
-#include "judge/verdict/intersect_test.h"
 #include "judge/verdict/rising_faces.h"
 #include "judge/verdict/shape_bounds.h"
+#include "mesh/face_tree.h"
+#include "regionmesh/promises.h"
 
 namespace regionmesh {
 
 /// The box that holds everything.
 inline constexpr Box kUnbounded{{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
 
-/// Where merged vertices may be: samples on the sides of their box keep their regions only while the surface stays in
-/// it.
-inline Box limits_of(const std::optional<Box>& box, const std::optional<Lattice>& samples) {
-    const Box limits = box.value_or(kUnbounded);
-    return samples ? common(limits, samples->extent()) : limits;
-}
-
-/// Places for the merged vertex; of two, the one that leaves the better worst face is taken.
-struct Places {
-    Vec3 first;
-    std::optional<Vec3> second = {};
+/// How a judge looks at its mesh.
+struct JudgeOptions {
+    Box limits = kUnbounded;      // merged vertices that move stay strictly inside, unless on a side of the box
+    bool sees_others = true;      // false: tests of the star alone follow (flat_vertices.h), and no tree is made
+    bool bounds_regions = false;  // asserts that each face has its first label behind it and its second in front of
+                                  // it, everywhere; changes are then tested faster, with the same result
+    FaceTree::Faces faces = FaceTree::Faces::kOneByOne;
+    CollapseLog* log = nullptr;  // filled with the collapses made
+    std::uint32_t threads = 1;   // at work at a time when trees are made; 0: one per core. The result is the same
 };
 
-/// The collapse under test. Reused from one to the next, so that nothing is allocated in the long run.
-struct Collapse {
-    const Mesh& mesh;
-    FaceTree* tree = nullptr;       // of the faces; none: they may cross
-    RisingFaces* rising = nullptr;  // of the same faces, where they bound regions
-    ShapeBounds bounds;
-    Box limits = kUnbounded;           // a merged vertex that moves stays strictly inside, unless on a side of the box
-    const Lattice* samples = nullptr;  // whose samples stay in their regions; none: any may change
-    double max_error = HUGE_VAL;       // of ErrorBound
-    CollapseLog* log = nullptr;        // gets what is made
-    EdgeStar star = {};
-    Vec3 position = {};         // of the merged vertex
-    double worst_quality3 = 0;  // third power of the least quality of a changed face
-    IntersectTest intersect = {};
-    ErrorBound error = {};
+/// Holds the promises, and what the tests in judge/verdict need to know of the whole mesh. Stages propose a Change,
+/// several threads at a time if they like, each with a Change of its own (examine, verdict_at in verdicts.h); one
+/// thread then applies those that were accepted. Nobody else moves vertices of the mesh or makes or removes faces
+/// meanwhile.
+class Judge {
+public:
+    /// Keeps references to both.
+    Judge(Mesh& mesh, const Promises& promises, const JudgeOptions& options = {});
+    Judge(const Judge&) = delete;
+    Judge& operator=(const Judge&) = delete;
+
+    const Mesh& mesh() const { return mesh_; }
+    const Promises& promises() const { return promises_; }
+    const ShapeBounds& bounds() const { return bounds_; }
+    const Box& limits() const { return limits_; }
+    /// Of the faces; null: they may meet.
+    const FaceTree* tree() const { return tree_ ? &*tree_ : nullptr; }
+    /// Of the same faces, where they bound regions; else null.
+    const RisingFaces* rising() const { return rising_ ? &*rising_ : nullptr; }
+
+    /// Gathers the split of the edge u-v by a new vertex, which is made in its middle without faces: star.goes. Where
+    /// the change is not applied, withdraw it. A face in the star counts for `quality` as it would be with the vertex
+    /// there.
+    void propose_split(VertexId u, VertexId v, Change& change);
+    void withdraw(const Change& split);
+    /// Makes the change, which the tests accepted on the mesh as it is now. Flips and splits get the ids of the new
+    /// faces.
+    void apply(Change& change);
+    /// Packs the faces and renumbers them.
+    void pack(std::uint32_t threads);
+    CollapseLog* log() const { return log_; }
+    /// In addition to the mesh.
+    std::size_t bytes() const { return (tree_ ? tree_->bytes() : 0) + (rising_ ? rising_->bytes() : 0); }
+
+private:
+    void collapse(const Change& change);
+    void move(const Change& change);
+    void flip(Change& change);
+    void split(Change& change);
+    void remove(FaceId f);
+    void make_room();
+    void note_star(const EdgeStar& star, Vec3 position);
+
+    Mesh& mesh_;
+    const Promises& promises_;
+    ShapeBounds bounds_;
+    Box limits_;
+    CollapseLog* log_;
+    std::optional<FaceTree> tree_;
+    std::optional<RisingFaces> rising_;
+    std::uint32_t known_faces_ = 0;  // faces that both have room for
+    std::uint32_t threads_;
 };
-
-/// Sets the boxes of the star's faces, whose apex is at `position` now.
-inline void set_boxes(FaceTree& tree, const EdgeStar& star, Vec3 position) {
-    for (int n = 0; n < star.face_count(); n += 2) {
-        const StarPair& pair = star.pairs[n / 2];
-        const auto boxes = tree.boxes_of(both(position), pair.a, pair.b);
-        tree.set(star.faces[n].face, boxes[0]);
-        if (n + 1 < star.face_count()) tree.set(star.faces[n + 1].face, boxes[1]);
-    }
-}
-
-/// Makes the move that was accepted (gather_move), of which the error was tested.
-inline void move_vertex(Mesh& mesh, Collapse& collapse) {
-    collapse.error.apply(mesh, collapse.star.goes);
-    mesh[collapse.star.goes].position = collapse.position;
-    set_boxes(*collapse.tree, collapse.star, collapse.position);
-}
-
-/// Finds the error bound of the merged vertex, where no largest one made test_error find it.
-inline void find_error(Collapse& collapse) {
-    if (collapse.max_error == HUGE_VAL) collapse.error.merged(collapse.mesh, collapse.star, collapse.position);
-}
-
-/// Makes the collapse that was accepted, of which the error is known (find_error): `stays` moves to the position of the
-/// merged vertex.
-inline void collapse_edge(Mesh& mesh, Collapse& collapse) {
-    const EdgeStar& star = collapse.star;
-    const Vec3 position = collapse.position;
-    if (collapse.log)
-        collapse.log->collapses.push_back({.position = position,
-                                           .goes = index(star.goes),
-                                           .stays = index(star.stays),
-                                           .goes_bound = mesh[star.goes].error_bound(),
-                                           .stays_bound = mesh[star.stays].error_bound(),
-                                           .level = collapse.log->level,
-                                           .faces = static_cast<std::uint32_t>(star.dead.size())});
-    collapse.error.apply(mesh, star.stays);
-    for (FaceId f : star.dead) {
-        mesh.remove_face(f);
-        if (collapse.tree) collapse.tree->remove(f);
-    }
-    mesh.move_star(star.goes, star.stays);
-    mesh[star.stays].position = position;
-    if (collapse.tree) set_boxes(*collapse.tree, star, position);
-    if (collapse.rising && !star.is_flat) collapse.rising->set(star, position);
-}
 
 }  // namespace regionmesh

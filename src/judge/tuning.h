@@ -1,7 +1,7 @@
 // The tuned constants of judge, each with the measurement that chose it.
 //
 // Unless stated otherwise the measure is the AAL crop of 96 x 96 x 96 samples (1,521,108 faces) to a tenth, not
-// smoothed; rms is the distance to the unsimplified surface, both ways, in samples (docs/performance.md).
+// smoothed; rms is the distance to the unsimplified surface, both ways, in samples (docs/explanation/performance.md).
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,9 @@ inline constexpr float kLeastRise = 0.05f;
 
 // --- Changes tested together --------------------------------------------------------------------------------------
 
-/// Most stripes of a sweep over a large mesh, and least trials of a stripe (try_together.h, src/simplify/edge_sweeps.h).
-/// With 128 stripes the trim of a head of 2.1 million faces takes half as long again on one thread, and is no faster on two.
+/// Most stripes of a sweep over a large mesh, and least trials of a stripe (try_together.h,
+/// src/simplify/rank/edge_sweeps.h). With 128 stripes the trim of a head of 2.1 million faces takes half as long again
+/// on one thread, and is no faster on two.
 inline constexpr std::uint32_t kMostStripes = 32, kLeastOfStripe = 32;
 
 }  // namespace regionmesh

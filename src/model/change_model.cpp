@@ -8,6 +8,8 @@
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
 #include "regionmesh/smooth_lines.h"
+#include "regionmesh/write_report.h"
+#include "stream/run_promises.h"
 
 namespace regionmesh {
 namespace {
@@ -69,28 +71,29 @@ ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOpti
     const BoxAxes axes = axes_of(mesh, samples);
     ModelChange change = begin(mesh, checks);
     Report& report = change.report;
-    SimplifyOptions options = simplify_options(settings, mesh);
-    options.samples = axes.samples();
-    if (spacing && !settings.reconstruct.min_quality && !settings.reconstruct.improve)
-        options.min_quality = usual_quality_bound(*spacing);
+    Ground ground{.scale = typical_edge(mesh), .samples = axes.samples(), .spacing = spacing};
+    if (!settings.reconstruct.cap) ground.box = size_of(mesh).box;
+    const Promises promises = promises_of(settings.reconstruct, ground);
+    SimplifyOptions options = simplify_options(settings.reconstruct, promises);
+    options.target_faces = target_faces(settings, mesh);
     std::optional<std::uint64_t> in_all;  // known where the target is a number of faces
     if (options.target_faces > 0) in_all = report.initial_faces - options.target_faces;
     options.on_progress = [&](std::uint64_t left) { note("decimate", report.initial_faces - left, in_all); };
     {
         const Timer timer(report.seconds["decimate"]);
         note_simplified(simplify(mesh, options), report);
-        if (has_target(settings)) report.quality_bound = options.min_quality;
+        if (has_target(settings)) report.quality_bound = promises.quality_bound();
     }
     if (settings.reconstruct.smooth_lines) {
         const Timer timer(report.seconds["smooth lines"]);
-        SmoothLinesOptions smoothing = smooth_lines_options(options);
+        SmoothLinesOptions smoothing{.promises = promises, .threads = options.threads};
         smoothing.on_progress = [&] { note("smooth lines", 0, std::nullopt); };
         report.smoothed_lines = smooth_lines(mesh, smoothing);
         report.error_bound = report.smoothed_lines->error_bound;
     }
     if (settings.reconstruct.improve) {
         const Timer timer(report.seconds["improve"]);
-        ImproveOptions improving = improve_options(options);
+        ImproveOptions improving{.promises = promises};
         improving.on_progress = [&] { note("improve", 0, std::nullopt); };
         report.improved = improve(mesh, improving);
         report.error_bound = report.improved->error_bound;
@@ -106,7 +109,7 @@ ModelChange smooth_model(Mesh& mesh, const Settings& settings, const CheckOption
     ModelChange change = begin(mesh, checks);
     Report& report = change.report;
     if (checks.boundary_is_open) fix_rims(mesh);
-    const SmoothOptions options = smooth_options(settings, mesh);
+    const SmoothOptions options = smooth_options(settings.reconstruct, settings.scale.value_or(typical_edge(mesh)));
     {
         const Timer timer(report.seconds["smooth"]);
         report.smoothing = smooth(mesh, options);

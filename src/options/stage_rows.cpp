@@ -62,14 +62,14 @@ Rows decimation_rows() {
                        [](Settings& s, const std::string& flag, const std::string& text) {
                            s.reconstruct.reduce = parse_share(flag, text);
                        }),
-        option(
+        without_default(option(
             {.name = "max-error",
              .help = "no point of the model is farther than this from the surface before decimation, nor the other way "
                      "round",
              .group = kGroup,
              .commands = kDecimators,
              .unit = "length"},
-            [](Settings& s) { return &s.reconstruct.max_error; }),
+            [](Settings& s) { return &s.reconstruct.promises.max_error; })),
         option({.name = "perturbation",
                 .help = "largest cost added to rank edges of equal cost, relative to spacing^4",
                 .group = kGroup,
@@ -153,7 +153,7 @@ Rows validity_rows() {
                  "unless with --improve or --preserve-volume",
              .group = kGroup,
              .commands = kWriters},
-            [](Settings& s) { return &s.reconstruct.min_quality; }, kQualities),
+            [](Settings& s) { return &s.reconstruct.promises.min_quality; }, kQualities),
         option({.name = "smooth-lines",
                 .help = "at the end, move the vertices of lines between three regions so that the lines turn less",
                 .group = kGroup,
@@ -174,7 +174,7 @@ Rows validity_rows() {
                        .help = "no tests for crossing faces while the surface is changed; faster",
                        .group = kGroup,
                        .commands = kWriters},
-                      [](Settings& s) { return &s.reconstruct.intersect_check; }),
+                      [](Settings& s) { return &s.reconstruct.promises.intersect_check; }),
     };
 }
 

@@ -93,8 +93,9 @@ LabelledMesh preview_of(const PageModel& model, const PageOptions& options) {
     for (const Label label : model.background) background.push_back(copy.labels.dense(model.labels.input(label)));
     const BoxAxes axes(copy.mesh);
     lock_violations(copy.mesh, {.background = background, .threads = options.threads});
-    simplify(copy.mesh,
-             {.target_faces = options.preview_faces, .scale = typical_edge(copy.mesh), .threads = options.threads});
+    simplify(copy.mesh, {.target_faces = options.preview_faces,
+                         .promises = {.scale = typical_edge(copy.mesh)},
+                         .threads = options.threads});
     axes.restore(copy.mesh);
     return copy;
 }

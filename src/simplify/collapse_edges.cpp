@@ -5,16 +5,16 @@
 #include <optional>
 
 #include "base/box.h"
+#include "judge/try_together.h"
+#include "judge/verdict/quality.h"
+#include "judge/verdict/verdicts.h"
 #include "mesh/strata.h"
 #include "simplify/rank/candidates.h"
-#include "judge/try_together.h"
 #include "simplify/sweep/flat_vertices.h"
 #include "simplify/sweep/half_candidates.h"
 #include "simplify/sweep/prepass.h"
 #include "simplify/sweep/sweep_marks.h"
 #include "simplify/tuning.h"
-#include "judge/verdict/quality.h"
-#include "judge/verdict/verdicts.h"
 
 namespace regionmesh {
 namespace {
@@ -57,19 +57,11 @@ public:
           histogram_(bounds.histogram),
           outside_(mesh, bounds.limits),
           flat_(remove_flat(mesh, options, bounds)),
-          tree_(tree_of(mesh, options, bounds)),
-          rising_(rising_of(mesh, options)),
+          judge_(mesh, options.promises, judge_options(options, bounds)),
           placement_(make_placement(mesh, options, bounds.threads)),
           candidates_(mesh, *placement_, options, bounds.is_large ? EdgeOrder::kInSweeps : EdgeOrder::kByCost),
           halves_(mesh.vertex_count() / 2),
-          trials_(1, {{.mesh = mesh,
-                       .tree = tree_ ? &*tree_ : nullptr,
-                       .rising = rising_ ? &*rising_ : nullptr,
-                       .bounds = {.min_quality = options.min_quality},
-                       .limits = common(bounds.limits, limits_of(options.box, options.samples)),
-                       .samples = options.samples ? &*options.samples : nullptr,
-                       .max_error = options.max_error,
-                       .log = bounds.log}}) {}
+          trials_(1) {}
 
     CollapseResult run() {
         const std::uint32_t faces = mesh_.face_count() + 2 * flat_, vertices = mesh_.vertex_count() + flat_;
@@ -83,16 +75,17 @@ public:
             if (is_at_target()) break;
             result_.verdicts[static_cast<int>(Verdict::kStrata)] += candidates_.refresh(threads_);
             halves_.clear();
-            const std::uint64_t before = accepted(), over_error = count(Verdict::kError);
+            const std::uint64_t before = accepted(), over_error = count_of(StopReason::kMaxError, result_.verdicts);
             while (!(candidates_.empty() && halves_.empty()) && !is_at_target()) {
                 step();
                 pack();
             }
-            result_.bytes = std::max(result_.bytes, (tree_ ? tree_->bytes() : 0) + (rising_ ? rising_->bytes() : 0) +
-                                                        candidates_.bytes() + placement_->bytes() + halves_.bytes());
+            result_.bytes =
+                std::max(result_.bytes, judge_.bytes() + candidates_.bytes() + placement_->bytes() + halves_.bytes());
             if (is_at_target()) break;
             if (accepted() == before || !is_refreshing_) {
-                const bool is_error = candidates_.has_edges_over_error() || count(Verdict::kError) > over_error;
+                const bool is_error = candidates_.has_edges_over_error() ||
+                                      count_of(StopReason::kMaxError, result_.verdicts) > over_error;
                 result_.stopped = is_error ? StopReason::kMaxError : StopReason::kTopology;
                 break;
             }
@@ -105,24 +98,18 @@ private:
     /// Returns the number of vertices that went.
     static std::uint32_t remove_flat(Mesh& mesh, const SimplifyOptions& options, const CollapseBounds& bounds) {
         count_labels(mesh, bounds.threads);
-        Collapse collapse{.mesh = mesh,
-                          .bounds = {.min_quality = options.min_quality},
-                          .max_error = options.max_error,
-                          .log = bounds.log};
-        const std::uint32_t removed = remove_flat_vertices(mesh, collapse, options.target_faces);
-        if (removed > 0) mesh.compact_faces();
+        Judge judge(mesh, options.promises, {.sees_others = false, .log = bounds.log});
+        const std::uint32_t removed = remove_flat_vertices(judge, options.target_faces);
+        if (removed > 0) judge.pack(bounds.threads);
         return removed;
     }
 
-    static std::optional<FaceTree> tree_of(const Mesh& mesh, const SimplifyOptions& options,
-                                           const CollapseBounds& bounds) {
-        if (!options.intersect_check) return {};
-        return FaceTree(mesh, bounds.threads, bounds.is_large ? FaceTree::Faces::kInPairs : FaceTree::Faces::kOneByOne);
-    }
-
-    static std::optional<RisingFaces> rising_of(const Mesh& mesh, const SimplifyOptions& options) {
-        if (!options.intersect_check || !options.bounds_regions) return {};
-        return RisingFaces(mesh);
+    static JudgeOptions judge_options(const SimplifyOptions& options, const CollapseBounds& bounds) {
+        return {.limits = bounds.limits,
+                .bounds_regions = options.bounds_regions,
+                .faces = bounds.is_large ? FaceTree::Faces::kInPairs : FaceTree::Faces::kOneByOne,
+                .log = bounds.log,
+                .threads = bounds.threads};
     }
 
     bool is_at_target() const { return mesh_.face_count() <= options_.target_faces; }
@@ -131,10 +118,10 @@ private:
 
     /// The prepass, as long as a whole sweep stays above the target.
     void sweep() {
-        const double scale2 = options_.scale * options_.scale;
+        const double scale2 = options_.promises.scale * options_.promises.scale;
         double most = std::min(options_.max_cost, placement_->prepass_cost() * scale2 * scale2);
         if (histogram_) most = std::min(most, histogram_->costs.front());
-        Prepass prepass(mesh_, *placement_, trials_.front().collapse, options_, most);
+        Prepass prepass(judge_, *placement_, options_, most);
         sweep_above(options_.target_faces, mesh_, [&] {
             pack();
             return prepass.sweep(result_.verdicts);
@@ -151,9 +138,7 @@ private:
     /// When many faces are gone, the others are brought together, and their tree is built anew.
     void pack() {
         if (mesh_.face_count() >= mesh_.face_end() * kCompactBelow) return;
-        mesh_.compact_faces();
-        if (tree_) tree_->build(threads_);
-        if (rising_) rising_->build(mesh_);
+        judge_.pack(threads_);
     }
 
     void step() {
@@ -170,15 +155,14 @@ private:
     }
 
     void note_level(double rank) {
-        CollapseLog* log = trials_.front().collapse.log;
-        if (log) log->level = std::max(log->level, rank);
+        if (CollapseLog* log = judge_.log()) log->level = std::max(log->level, rank);
     }
 
     /// Tests the next candidates where they cost least, at the same time, and in their order collapses them or puts
     /// them aside. One that lies near an earlier one which was collapsed comes once more: its test may no longer hold.
     void try_next() {
         const std::span<const VertexId> next = candidates_.next();
-        while (trials_.size() < next.size()) trials_.push_back({trials_.front().collapse});
+        if (trials_.size() < next.size()) trials_.resize(next.size());
         const std::uint32_t threads = placement_->ranks_in_parallel() ? threads_ : 1;
         made_.clear();
         try_together(
@@ -186,15 +170,15 @@ private:
             [&](std::uint32_t n) { return !is_at_target() && settle(trials_[n]); });
         parallel_for(static_cast<std::uint32_t>(made_.size()), threads, [&](std::uint32_t n) {
             Trial& made = *made_[n];
-            candidates_.rank_around(made.collapse.star.goes, made.collapse.star.stays, made.scratch, made.ranked);
+            candidates_.rank_around(made.change.star.goes, made.change.star.stays, made.scratch, made.ranked);
         });
         for (const Trial* made : made_)
-            candidates_.update(made->collapse.star.goes, made->collapse.star.stays, made->ranked);
+            candidates_.update(made->change.star.goes, made->change.star.stays, made->ranked);
     }
 
     /// What is found out about a candidate while others are tested, too.
     struct Trial {
-        Collapse collapse;
+        Change change;
         Verdict verdict = Verdict::kAccepted;
         Box box = {};                     // see try_together
         Candidates::Best after = {};      // the next edge of the end that goes, where this one is refused
@@ -205,26 +189,26 @@ private:
     };
 
     void test(Trial& trial, VertexId goes) {
-        Collapse& collapse = trial.collapse;
-        const EdgeStar& star = collapse.star;
-        gather(mesh_, goes, candidates_.stays(goes), collapse.star);
-        collapse.position = star.at_stays;
-        trial.verdict = examine(collapse, [&] { return placement_->place(mesh_, star); });
+        Change& change = trial.change;
+        const EdgeStar& star = change.star;
+        gather(mesh_, goes, candidates_.stays(goes), change.star);
+        change.position = star.at_stays;
+        trial.verdict = examine(judge_, change, [&] { return placement_->place(mesh_, star); });
         trial.box = star.link_box;
-        for (Vec3 p : {star.at_goes, star.at_stays, collapse.position}) trial.box.add(p);
+        for (Vec3 p : {star.at_goes, star.at_stays, change.position}) trial.box.add(p);
         for (VertexId apex : star.apexes) trial.box.add(mesh_.position(apex));
         if (trial.verdict == Verdict::kAccepted) return;
-        trial.half = depends_on_place(trial.verdict) ? rank_of_second_choice(trial) : std::nullopt;
+        trial.half = is_cured_elsewhere(trial.verdict) ? rank_of_second_choice(trial) : std::nullopt;
         trial.after = candidates_.after_refusal(goes, trial.scratch);
     }
 
     /// Returns whether it is collapsed.
     bool settle(Trial& trial) {
-        const EdgeStar& star = trial.collapse.star;
+        const EdgeStar& star = trial.change.star;
         ++result_.verdicts[static_cast<int>(trial.verdict)];
         if (trial.verdict == Verdict::kAccepted) {
             made_.push_back(&trial);
-            apply(trial.collapse, histogram_ ? cost_of(star) : 0);
+            apply(trial.change, histogram_ ? cost_of(star) : 0);
         } else {
             if (trial.half) halves_.add({*trial.half, star.goes, star.stays});
             candidates_.refuse(star.goes, trial.after);
@@ -233,16 +217,11 @@ private:
         return trial.verdict == Verdict::kAccepted;
     }
 
-    static bool depends_on_place(Verdict verdict) {
-        return verdict == Verdict::kFold || verdict == Verdict::kQuality || verdict == Verdict::kPinch ||
-               verdict == Verdict::kSamples;
-    }
-
     /// The half collapse is a second choice, unless `fold` or `quality` would refuse it on the mesh as it is now:
     /// nearly all such edges are refused when their turn comes, too.
     std::optional<double> rank_of_second_choice(Trial& trial) const {
-        const EdgeStar& star = trial.collapse.star;
-        if (fan_quality3(mesh_, star, star.stays, star.at_stays, trial.collapse.bounds) == 0) return {};
+        const EdgeStar& star = trial.change.star;
+        if (fan_quality3(mesh_, star, star.stays, star.at_stays, judge_.bounds()) == 0) return {};
         return rank_of_half(star.goes, star.stays, trial.half_costs);
     }
 
@@ -250,7 +229,7 @@ private:
     std::optional<double> rank_of_half(VertexId goes, VertexId stays, std::vector<HalfCost>& costs) const {
         placement_->rank_halves(mesh_, goes, {&stays, 1}, costs);
         const HalfCost& half = costs.front();
-        if (!half.is_within(options_.max_cost, options_.max_error)) return {};
+        if (!half.is_within(options_.max_cost, options_.promises.max_error)) return {};
         // Rounding may leave less than 0.
         return std::max(half.cost, 0.0) +
                kLengthShare * half.weight * length2(mesh_.position(stays) - mesh_.position(goes));
@@ -264,12 +243,12 @@ private:
         const auto now = rank_of_half(goes, stays, trial.half_costs);
         if (!now) return;
         if (*now > rank * kSameRank) return halves_.add({*now, goes, stays});
-        EdgeStar& star = trial.collapse.star;
+        EdgeStar& star = trial.change.star;
         gather_half(mesh_, goes, stays, star);
-        const Verdict verdict = examine(trial.collapse, [&] { return Places{star.at_stays}; });
+        const Verdict verdict = examine(judge_, trial.change, [&] { return Places{star.at_stays}; });
         ++result_.verdicts[static_cast<int>(verdict)];
         if (verdict != Verdict::kAccepted) return;
-        apply(trial.collapse, trial.half_costs.front().cost);
+        apply(trial.change, trial.half_costs.front().cost);
         candidates_.rank_around(goes, stays, trial.scratch, trial.ranked);
         candidates_.note(trial.scratch.notes);
         candidates_.update(goes, stays, trial.ranked);
@@ -281,10 +260,10 @@ private:
         return edge_costs_.front().cost;
     }
 
-    void apply(Collapse& collapse, double cost) {
+    void apply(Change& change, double cost) {
         const std::uint32_t before = mesh_.face_count();
-        placement_->collapse(mesh_, collapse.star, collapse.position);
-        collapse_edge(mesh_, collapse);
+        placement_->collapse(mesh_, change.star, change.position);
+        judge_.apply(change);
         if (histogram_) histogram_->add(cost, before - mesh_.face_count());
     }
 
@@ -295,8 +274,7 @@ private:
     CostHistogram* histogram_;
     FixedOutside outside_;
     std::uint32_t flat_;  // vertices that went before all else
-    std::optional<FaceTree> tree_;
-    std::optional<RisingFaces> rising_;
+    Judge judge_;
     std::unique_ptr<Placement> placement_;
     Candidates candidates_;
     HalfCandidates halves_;

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "judge/judge.h"
 #include "mesh/safe_interval.h"
 #include "regionmesh/simplify.h"
-#include "judge/judge.h"
 
 namespace regionmesh {
 

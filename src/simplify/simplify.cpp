@@ -6,12 +6,11 @@
 #include <utility>
 
 #include "base/option_range.h"
+#include "judge/error_bound.h"
 #include "mesh/extent.h"
 #include "regionmesh/box_axes.h"
-#include "regionmesh/error.h"
 #include "regionmesh/mesh.h"
 #include "simplify/collapse_edges.h"
-#include "judge/error_bound.h"
 #include "simplify/tiles/mesh_chunk.h"
 #include "simplify/tiles/threshold_passes.h"
 
@@ -47,12 +46,13 @@ bool simplify_by_tiles(Mesh& mesh, const SimplifyOptions& options, SimplifyResul
     result.bytes += before;
     const double share = static_cast<double>(options.target_faces) / static_cast<double>(chunk.faces.size());
     const double aim = std::min(options.target_faces * kTrimMargin, static_cast<double>(chunk.faces.size()));
-    PassOptions passes{.target_faces = static_cast<std::uint64_t>(aim),
-                       .tiles = {.threshold = kTileThreshold * std::pow(kEdgesPerSpacing * edge / options.scale, 4),
-                                 .keep_share = share * kTileMargin,
-                                 .free_share = share > kFreeFrom ? share * kFreeMargin : 1,
-                                 .threads = options.threads,
-                                 .simplify = options}};
+    PassOptions passes{
+        .target_faces = static_cast<std::uint64_t>(aim),
+        .tiles = {.threshold = kTileThreshold * std::pow(kEdgesPerSpacing * edge / options.promises.scale, 4),
+                  .keep_share = share * kTileMargin,
+                  .free_share = share > kFreeFrom ? share * kFreeMargin : 1,
+                  .threads = options.threads,
+                  .simplify = options}};
     std::uint64_t left = chunk.faces.size();
     if (options.on_progress)
         passes.tiles.on_share = [&, caller = std::this_thread::get_id()](double) {
@@ -74,28 +74,17 @@ bool simplify_by_tiles(Mesh& mesh, const SimplifyOptions& options, SimplifyResul
     return true;
 }
 
-void require_in_range(const SimplifyOptions& options) {
+void require_options(const SimplifyOptions& options) {
     require_number("max_cost", options.max_cost, kNotNegativeOrInfinite);
-    require_number("max_error", options.max_error, kNotNegativeOrInfinite);
-    require_number("min_quality", options.min_quality, kQualityRange);
+    require_in_range(options.promises);
     require_number("perturbation", options.perturbation, kNotNegative);
-    require_number("scale", options.scale, kPositive);
     require_choice("placement", options.placement, PlacementKind::kLindstromTurk);
-    for (int axis = 0; options.box && axis < 3; ++axis)
-        if (!(options.box->low[axis] <= options.box->high[axis]))
-            throw Error(ErrorCode::kUsage, "box: it ends before it begins; give its lower corner as low");
-    if (options.samples) require_along_axes("samples", *options.samples);
 }
 
 }  // namespace
 
-double usual_quality_bound(const Vec3& spacing) {
-    const auto [least, greatest] = std::minmax({spacing.x, spacing.y, spacing.z});
-    return SimplifyOptions{}.min_quality / (greatest / least);
-}
-
 SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options) {
-    require_in_range(options);
+    require_options(options);
     require_along_axes(mesh);
     SimplifyResult result;
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].set_error_bound(0);

@@ -4,22 +4,13 @@
 #include <cmath>
 #include <functional>
 
-#include "base/option_range.h"
-#include "regionmesh/smooth.h"
 #include "judge/error_bound.h"
+#include "regionmesh/smooth.h"
 #include "stream/stage_options.h"
 
 namespace regionmesh {
 
 namespace {
-
-/// Options of decimation for a later stage: z is still scaled, and the bound on quality may have a margin on it.
-template <class Options>
-Options at_the_end(Options own, const SourceShape& shape) {
-    own.scale_z = shape.scale_z;
-    own.min_quality = std::min(own.min_quality, kQualityRange.most);
-    return own;
-}
 
 /// Called now and then by a stage of an unknown number of sweeps, so many calls each: the share nears 1 ever more
 /// slowly.
@@ -35,7 +26,7 @@ std::function<void()> progress_of(RunLog& log, WorkStage stage, const char* name
 void smooth_lines(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log) {
     if (!options.smooth_lines) return;
     const StageTimer timer = log.time("smooth lines");
-    SmoothLinesOptions own = at_the_end(smooth_lines_options(simplify_options(options, shape)), shape);
+    SmoothLinesOptions own{.promises = promises_of(options, ground_of(shape)), .threads = options.threads};
     own.on_progress = progress_of(log, WorkStage::kLines, "smooth lines", 1 + result.mesh.vertex_end() / 4096.0);
     result.report.smoothed_lines = smooth_lines(result.mesh, own);
     result.report.error_bound = result.report.smoothed_lines->error_bound;
@@ -44,7 +35,7 @@ void smooth_lines(Reconstruction& result, const ReconstructOptions& options, con
 void improve_faces(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log) {
     if (!options.improve) return;
     const StageTimer timer = log.time("improve");
-    ImproveOptions own = at_the_end(improve_options(simplify_options(options, shape)), shape);
+    ImproveOptions own{.promises = promises_of(options, ground_of(shape))};
     own.on_progress = progress_of(log, WorkStage::kImprove, "improve",
                                   1 + (result.mesh.face_end() + result.mesh.vertex_end()) / 16384.0);
     result.report.improved = improve(result.mesh, own);
@@ -59,7 +50,7 @@ void restore_volumes(Reconstruction& result, const ReconstructOptions& options, 
     for (Label label : result.background)
         if (label < wanted.size()) wanted[label].reset();
     SmoothOptions own = smooth_options(options, shape.scale);
-    own.box = simplify_options(options, shape).box;
+    own.box = ground_of(shape).box;
     result.report.preserved = preserve_volumes(result.mesh, wanted, own);
     result.report.error_bound = largest_error_bound(result.mesh);
 }

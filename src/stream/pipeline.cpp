@@ -136,7 +136,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
 
     simplify.bring_to_target();
     log.advance(WorkStage::kTrim, 1);
-    if (plan.is_decimating) result.report.quality_bound = quality_bound(options, shape);
+    if (plan.is_decimating) result.report.quality_bound = quality_bound(options, ground_of(shape));
     smooth_lines(result, options, shape, log);
     log.advance(WorkStage::kLines, 1);
     improve_faces(result, options, shape, log);

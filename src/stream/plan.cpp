@@ -77,7 +77,7 @@ BudgetDemand demand_of(const SourceShape& shape, const Target& target, std::vect
 }  // namespace
 
 bool is_decimating(const ReconstructOptions& options) {
-    return options.decimate && (options.target_faces || options.reduce || options.max_error);
+    return options.decimate && (options.target_faces || options.reduce || options.promises.max_error < HUGE_VAL);
 }
 
 std::vector<std::uint64_t> guessed_strip_faces(const Lattice& lattice, Sweep sweep) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "simplify/collapse_edges.h"
 #include "judge/error_bound.h"
+#include "simplify/collapse_edges.h"
 #include "simplify/tiles/threshold_passes.h"
 #include "stream/footprint.h"
 #include "stream/stage_options.h"

@@ -8,7 +8,7 @@
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 #include "smooth/chunk_smoother.h"
-#include "stream/tuning.h"
+#include "stream/run_promises.h"
 #include "volume/exact_grid.h"
 #include "volume/room_reader.h"
 
@@ -16,12 +16,11 @@ namespace regionmesh {
 
 void require_in_range(const ReconstructOptions& options) {
     if (options.reduce) require_number("reduce", *options.reduce, {0, 1, "0 to 1"});
-    if (options.max_error) require_number("max_error", *options.max_error, kNotNegativeOrInfinite);
+    require_in_range(options.promises);
     require_room(options.room);
     require_choice("cells", options.cells, CellKind::kTetrahedra);
     require_choice("placement", options.placement, PlacementKind::kLindstromTurk);
     if (options.strips_per_chunk == 0) throw Error(ErrorCode::kUsage, "strips_per_chunk: 0; give at least 1");
-    if (options.min_quality) require_number("min_quality", *options.min_quality, kQualityRange);
     require_number("perturbation", options.perturbation, kNotNegative);
     require_in_range(smooth_options(options, 1));
 }
@@ -40,15 +39,6 @@ CellKind cell_kind(const ReconstructOptions& options) {
     return keeps_samples && !options.preserve_volume ? CellKind::kCompact : CellKind::kTetrahedra;
 }
 
-SmoothOptions smooth_options(const ReconstructOptions& options, double scale) {
-    SmoothOptions own = options.smooth;
-    own.scale = scale;
-    own.min_quality = options.min_quality.value_or(SmoothOptions{}.min_quality);
-    own.intersect_check = options.intersect_check;
-    own.threads = options.threads;
-    return own;
-}
-
 double section_scale(const VolumeInfo& volume, const ReconstructOptions& options) {
     if (options.scale_z == kAutoScale) {
         const Vec3& spacing = volume.lattice.spacing;
@@ -60,30 +50,11 @@ double section_scale(const VolumeInfo& volume, const ReconstructOptions& options
                 volume.source + ": --scale-z must be a number above 0, and within bounds; take one such as 100");
 }
 
-double quality_bound(const ReconstructOptions& options, const SourceShape& shape) {
-    if (options.min_quality) return *options.min_quality;
-    // Faces are improved for the sake of their shape; volumes are restored by moving vertices, which bad faces hold
-    // back.
-    const bool is_usual = !shape.has_samples || options.improve || options.preserve_volume;
-    return is_usual ? SimplifyOptions{}.min_quality : usual_quality_bound(shape.lattice.spacing);
-}
-
 SimplifyOptions simplify_options(const ReconstructOptions& options, const SourceShape& shape) {
-    SimplifyOptions own;
-    if (options.max_error) own.max_error = *options.max_error;
-    own.min_quality = quality_bound(options, shape) * (options.preserve_volume ? stream::kQualityMargin : 1);
-    own.perturbation = options.perturbation;
-    own.scale = shape.scale;
-    own.intersect_check = options.intersect_check;
+    SimplifyOptions own = simplify_options(options, promises_of(options, ground_of(shape)));
     // If the hull is open, a line may leave a domain that is not convex and come back in another region.
     own.bounds_regions = options.cap || shape.has_samples;
     own.removes_folds = shape.has_samples && options.smooth.passes > 0 && is_lattice(options.smooth.filter);
-    if (shape.has_samples) {
-        const Lattice along_axes = shape.lattice.along_axes();  // meshes are turned at the end
-        if (options.keep_samples) own.samples = along_axes;
-        own.box = along_axes.extent();
-    }
-    own.placement = options.placement;
     return own;
 }
 

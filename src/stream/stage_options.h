@@ -2,8 +2,8 @@
 #pragma once
 
 #include "regionmesh/reconstruct.h"
-#include "regionmesh/simplify.h"
 #include "stream/face_source.h"
+#include "stream/run_promises.h"
 
 namespace regionmesh {
 
@@ -16,16 +16,11 @@ ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter a
 /// Are sections smoothed inside the lattice, which keeps every sample? kAuto is this filter, too.
 bool is_lattice(SmoothFilter filter);
 
-SmoothOptions smooth_options(const ReconstructOptions& options, double scale);
-
 /// The factor of z of sections that the options ask for: a power of two, so that scaling is exact. Throws Error(kUsage)
 /// for one out of bounds.
 double section_scale(const VolumeInfo& volume, const ReconstructOptions& options);
 
-/// The lowest quality of the faces that decimation changes (docs/explanation/decimate.md, "Sections far apart").
-double quality_bound(const ReconstructOptions& options, const SourceShape& shape);
-
-/// Without a target.
+/// Of a run: its promises, without a target.
 SimplifyOptions simplify_options(const ReconstructOptions& options, const SourceShape& shape);
 
 }  // namespace regionmesh

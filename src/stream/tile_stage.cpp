@@ -60,7 +60,7 @@ void TileStage::coarsen_caps(GatheredStrips& gathered, TileOptions& options) con
     const double least_share = std::min(options.keep_share, options.free_share);
     regionmesh::coarsen_caps(gathered.chunk, gathered.carried,
                              {.lattice = plan_.tiles.lattice,
-                              .min_quality = options.simplify.min_quality,
+                              .min_quality = options.simplify.promises.quality_bound(),
                               .least_faces = static_cast<std::uint64_t>(std::ceil(least_share * before)),
                               .threads = options.threads});
     const double left = static_cast<double>(gathered.chunk.faces.size()) / before;

@@ -125,7 +125,7 @@ TEST(BlockRun, keeps_to_the_largest_error) {
     const TestFolder folder;
     test::ArrayVolume volume = foam();
     ReconstructOptions options = options_for({});
-    options.max_error = 0.2;
+    options.promises.max_error = 0.2;
     const BlockReport report = run_blocks(folder.path, volume, options);
     EXPECT_LE(report.error_bound, 0.2);
     EXPECT_GT(report.error_bound, 0.1);
@@ -140,7 +140,7 @@ TEST(BlockRun, says_that_topology_ended_it_where_the_largest_error_did_not) {
         const TestFolder folder;
         test::ArrayVolume volume = foam();
         ReconstructOptions options = options_for({});
-        options.max_error = 1e6;
+        options.promises.max_error = 1e6;
         BlockTasks alone;
         EXPECT_EQ(run_blocks(folder.path, volume, options, alone, cells).stopped, StopReason::kTopology);
     }

@@ -82,16 +82,16 @@ TEST(ErrorBound, is_never_below_the_distance) {
 }
 
 TEST(ErrorBound, max_error_is_kept) {
-    for_runs({{.max_error = 0.05},
-              {.max_error = 0.3},
-              {.max_error = 0.3, .improve = true},
-              {.max_error = 0.3, .smooth_lines = true},
-              {.max_error = 1, .placement = PlacementKind::kLindstromTurk}},
+    for_runs({{.promises = {.max_error = 0.05}},
+              {.promises = {.max_error = 0.3}},
+              {.promises = {.max_error = 0.3}, .improve = true},
+              {.promises = {.max_error = 0.3}, .smooth_lines = true},
+              {.promises = {.max_error = 1}, .placement = PlacementKind::kLindstromTurk}},
              [](const Reconstruction& whole, const Reconstruction& made, const ReconstructOptions& options) {
                  EXPECT_LT(made.mesh.face_count(), whole.mesh.face_count());
-                 EXPECT_LE(made.report.error_bound, *options.max_error);
+                 EXPECT_LE(made.report.error_bound, options.promises.max_error);
                  EXPECT_LE(sampled_distance(whole, made), made.report.error_bound + kRounding);
-                 const bool is_small = *options.max_error < 1;
+                 const bool is_small = options.promises.max_error < 1;
                  EXPECT_TRUE(made.report.verdicts[static_cast<int>(Verdict::kError)] > 0 || !is_small);
                  EXPECT_EQ(made.report.stopped, StopReason::kMaxError);
              });
@@ -115,7 +115,8 @@ TEST(ErrorBound, holds_through_budgets_runs_and_tiles) {
     for (const auto& [budget, error] :
          {std::pair<std::uint64_t, std::optional<double>>{75'000, {}}, {75'000, 0.2}, {0, 0.2}})
         for (std::uint32_t strips : {1u, 7u}) {
-            ReconstructOptions options{.max_error = error, .background = {}, .strips_per_chunk = strips};
+            ReconstructOptions options{
+                .promises = {.max_error = error.value_or(HUGE_VAL)}, .background = {}, .strips_per_chunk = strips};
             if (!error) options.reduce = 0.95;
             if (budget > 0) options.face_budget = budget;
             const Reconstruction made = test::run(volume, options);
@@ -132,7 +133,7 @@ test::ArrayVolume one_label() {
 TEST(ErrorBound, is_zero_where_flat_faces_stay_flat) {
     const Reconstruction made = test::run(one_label(), {.reduce = 0.95, .background = {}});
     EXPECT_EQ(made.report.error_bound, 0);
-    const Reconstruction kept = test::run(one_label(), {.max_error = 1e-6, .background = {}});
+    const Reconstruction kept = test::run(one_label(), {.promises = {.max_error = 1e-6}, .background = {}});
     EXPECT_LT(kept.mesh.face_count(), 50u) << "what costs nothing goes";
 }
 

@@ -24,12 +24,13 @@ Mesh sheet_and_octahedron(Vec3 middle, double size) {
 }
 
 /// Edge 0-1 of the sheet, merged at `position`.
-bool is_blocked(const Mesh& mesh, Vec3 position) {
-    FaceTree tree(mesh);
-    Collapse collapse{.mesh = mesh, .tree = &tree, .bounds = {.min_quality = 0}};
-    gather(mesh, VertexId{0}, VertexId{1}, collapse.star);
-    EXPECT_EQ(shape_verdict(collapse, position), Verdict::kAccepted);
-    return verdict_at(collapse, {position}) == Verdict::kIntersect;
+bool is_blocked(Mesh mesh, Vec3 position) {
+    const Promises promises{.min_quality = 0};
+    const Judge judge(mesh, promises);
+    Change change;
+    gather(mesh, VertexId{0}, VertexId{1}, change.star);
+    EXPECT_EQ(shape_verdict(judge, change, position), Verdict::kAccepted);
+    return verdict_at(judge, change, {position}) == Verdict::kIntersect;
 }
 
 constexpr Vec3 kTop{0.5, 0, 1};

@@ -120,9 +120,8 @@ TEST(RisingFaces, models_are_those_of_the_whole_test) {
 TEST(RisingFaces, faces_joined_to_the_star_are_not_swept_over) {
     test::TextVolume volume = folding_volume();
     volume.swept(kSweepY);
-    const Reconstruction made = test::run(volume, {.max_error = 0.3,
+    const Reconstruction made = test::run(volume, {.promises = {.min_quality = 0.05, .max_error = 0.3},
                                                    .cells = CellKind::kTetrahedra,
-                                                   .min_quality = 0.05,
                                                    .keep_samples = false,
                                                    .cap = false,
                                                    .background = {}});

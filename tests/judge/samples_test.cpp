@@ -55,7 +55,7 @@ TEST(Samples, of_enlarged_labels_need_not_be_kept_for_a_model_of_few_faces_to_ke
     EXPECT_EQ(made.report.stopped, StopReason::kTarget);
     const double size = 4.0 / 3 * std::numbers::pi * std::pow(2 * 9.4, 3);
     EXPECT_NEAR(made.report.check.regions.front().volume, size, 0.1 * size);
-    EXPECT_GT(made.report.check.quality.min, SimplifyOptions{}.min_quality);
+    EXPECT_GT(made.report.check.quality.min, kUsualQuality);
 }
 
 TEST(Samples, keep_their_regions_without_decimation) {

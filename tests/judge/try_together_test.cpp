@@ -1,8 +1,4 @@
-<<<<<<<< HEAD:tests/simplify/rank/try_together_test.cpp
 #include "judge/try_together.h"
-========
-#include "judge/try_together.h"
->>>>>>>> dc848d15 (judge, improve: the tests of changes and the passes over shape, rooms of their own):tests/judge/try_together_test.cpp
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

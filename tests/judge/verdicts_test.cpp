@@ -18,9 +18,11 @@ using test::ShapeFace;
 
 Verdict topology_of(Mesh& mesh, std::uint32_t goes, std::uint32_t stays) {
     count_labels(mesh);
-    Collapse collapse{.mesh = mesh, .bounds = {}};
-    gather(mesh, VertexId{goes}, VertexId{stays}, collapse.star);
-    return topology_verdict(collapse);
+    const Promises promises;
+    const Judge judge(mesh, promises, {.sees_others = false});
+    Change change;
+    gather(mesh, VertexId{goes}, VertexId{stays}, change.star);
+    return topology_verdict(judge, change);
 }
 
 struct ShapeResult {
@@ -31,11 +33,16 @@ struct ShapeResult {
 Verdict topology_of(Mesh&& mesh, std::uint32_t goes, std::uint32_t stays) { return topology_of(mesh, goes, stays); }
 
 /// Collapses edge 0-1.
-ShapeResult shape_of(const Mesh& mesh, Vec3 position, const ShapeBounds& bounds = {}) {
-    Collapse collapse{.mesh = mesh, .bounds = bounds};
-    gather(mesh, VertexId{0}, VertexId{1}, collapse.star);
-    const Verdict verdict = verdict_at(collapse, {position});
-    return {verdict, collapse.worst_quality3};
+ShapeResult shape_of(Mesh& mesh, Vec3 position, const Promises& promises = {}) {
+    const Judge judge(mesh, promises, {.sees_others = false});
+    Change change;
+    gather(mesh, VertexId{0}, VertexId{1}, change.star);
+    const Verdict verdict = verdict_at(judge, change, {position});
+    return {verdict, change.worst_quality3};
+}
+
+ShapeResult shape_of(Mesh&& mesh, Vec3 position, const Promises& promises = {}) {
+    return shape_of(mesh, position, promises);
 }
 
 /// A triangle 0 1 2 between regions 0 and 1, and on each side a roof over three more vertices: no two corners have a
@@ -147,7 +154,7 @@ Mesh cut_tip(double tip) {
 }
 
 TEST(ShapeVerdict, needles_may_get_a_little_longer_where_they_get_fewer) {
-    const Mesh mesh = cut_tip(0.01);
+    Mesh mesh = cut_tip(0.01);
     const auto p = mesh.corners(FaceId{2});
     const double before = quality_terms(p[0], p[1], p[2]).cube();
     const Vec3 middle = 0.5 * (mesh.position(VertexId{0}) + mesh.position(VertexId{1})),
@@ -162,7 +169,7 @@ TEST(ShapeVerdict, needles_may_get_a_little_longer_where_they_get_fewer) {
 }
 
 TEST(ShapeVerdict, needles_far_below_the_bound_may_not_get_longer) {
-    const Mesh mesh = cut_tip(0.001);  // the quality of its needles falls to 0.025
+    Mesh mesh = cut_tip(0.001);  // the quality of its needles falls to 0.025
     const Vec3 middle = 0.5 * (mesh.position(VertexId{0}) + mesh.position(VertexId{1}));
     EXPECT_EQ(shape_of(mesh, middle, {.min_quality = 0.1}).verdict, Verdict::kQuality);
     EXPECT_EQ(shape_of(mesh, middle, {.min_quality = 0.05}).verdict, Verdict::kAccepted);
@@ -199,7 +206,7 @@ Mesh ridge() {
 }
 
 TEST(ShapeVerdict, pinch_when_faces_of_the_star_close) {
-    const ShapeBounds bounds{.min_quality = 0};
+    const Promises bounds{.min_quality = 0};
     EXPECT_EQ(shape_of(ridge(), {0.5, 0, 0}, bounds).verdict, Verdict::kAccepted);
     EXPECT_EQ(shape_of(ridge(), {0.5, 0, 0.75}, bounds).verdict, Verdict::kPinch);
 }
@@ -213,7 +220,7 @@ Mesh sheet_under_a_page() {
 }
 
 TEST(ShapeVerdict, pinch_when_a_face_closes_on_one_beyond_the_link) {
-    const ShapeBounds bounds{.min_quality = 0};
+    const Promises bounds{.min_quality = 0};
     EXPECT_EQ(shape_of(sheet_under_a_page(), {0.5, 0, 1}, bounds).verdict, Verdict::kAccepted);
     EXPECT_EQ(shape_of(sheet_under_a_page(), {0.5, 0, 1.95}, bounds).verdict, Verdict::kPinch) << "within five degrees";
     EXPECT_EQ(shape_of(sheet_under_a_page(), {0.5, 0, 2.4}, bounds).verdict, Verdict::kPinch) << "through it";

@@ -69,7 +69,7 @@ TEST(OptionTable, defaults_as_text_are_the_defaults_of_the_structs) {
         if (!option.default_text.empty()) values.emplace_back(option.name, option.default_text);
     EXPECT_GT(values.size(), 10u);
     const Settings set = applied(values), plain;
-    EXPECT_EQ(set.reconstruct.min_quality, plain.reconstruct.min_quality);
+    EXPECT_EQ(set.reconstruct.promises.min_quality, plain.reconstruct.promises.min_quality);
     EXPECT_EQ(set.reconstruct.perturbation, plain.reconstruct.perturbation);
     EXPECT_EQ(set.reconstruct.memory, plain.reconstruct.memory);
     EXPECT_EQ(set.reconstruct.threads, plain.reconstruct.threads);
@@ -106,7 +106,7 @@ TEST(OptionTable, values_reach_their_members) {
     EXPECT_EQ(settings.reconstruct.sweep->axes, kSweepX.axes);
     EXPECT_FALSE(settings.reconstruct.cap);
     EXPECT_EQ(settings.surface.weld, 0.0);
-    EXPECT_FALSE(settings.reconstruct.intersect_check);
+    EXPECT_FALSE(settings.reconstruct.promises.intersect_check);
     EXPECT_EQ(settings.reconstruct.smooth.filter, SmoothFilter::kNifpms);
     EXPECT_THAT(settings.inputs, ElementsAre("a.png", "b.png"));
 }

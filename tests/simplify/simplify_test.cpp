@@ -127,14 +127,15 @@ TEST(Simplify, works_at_any_scale) {
     test::for_vertices(tiny, [&](VertexId v) { tiny[v].position = kScale * tiny[v].position; });
     const std::uint32_t target = unit.face_count() / 10;
     simplify(unit, {.target_faces = target});
-    const SimplifyResult done = simplify(tiny, {.target_faces = target, .scale = kScale});
+    const SimplifyResult done = simplify(tiny, {.target_faces = target, .promises = {.scale = kScale}});
     EXPECT_GT(done.tile_passes, 0u);
     EXPECT_EQ(unit.face_count(), tiny.face_count());
     test::expect_sound(check(tiny));
 }
 
 TEST(Simplify, stops_at_the_largest_error_or_cost) {
-    for (const SimplifyOptions& options : {SimplifyOptions{.max_cost = 1e-2}, SimplifyOptions{.max_error = 0.1}}) {
+    for (const SimplifyOptions& options :
+         {SimplifyOptions{.max_cost = 1e-2}, SimplifyOptions{.promises = {.max_error = 0.1}}}) {
         Mesh mesh = large();
         const std::uint32_t before = mesh.face_count();
         const SimplifyResult done = simplify(mesh, options);
@@ -147,7 +148,8 @@ TEST(Simplify, stops_at_the_largest_error_or_cost) {
 TEST(Simplify, typical_edge_serves_as_scale) {
     Mesh mesh = large();
     const std::uint32_t target = mesh.face_count() / 10;
-    EXPECT_EQ(simplify(mesh, {.target_faces = target, .scale = typical_edge(mesh)}).stopped, StopReason::kTarget);
+    EXPECT_EQ(simplify(mesh, {.target_faces = target, .promises = {.scale = typical_edge(mesh)}}).stopped,
+              StopReason::kTarget);
     EXPECT_LE(mesh.face_count(), target);
 }
 

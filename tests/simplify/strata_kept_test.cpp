@@ -44,7 +44,7 @@ TEST(StrataKept, with_neither_quality_nor_intersect_verdicts) {
         SCOPED_TRACE(input.name);
         Mesh mesh = test::run(input.volume, input.options).mesh;
         const test::StrataList before = test::list_strata(mesh);
-        simplify(mesh, {.min_quality = 0, .perturbation = 1e-3, .intersect_check = false});
+        simplify(mesh, {.promises = {.min_quality = 0, .intersect_check = false}, .perturbation = 1e-3});
         test::expect_same_strata(test::list_strata(mesh), before);
     }
 }

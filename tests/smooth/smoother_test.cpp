@@ -37,8 +37,8 @@ ReconstructOptions smoothed(SmoothOptions smooth = {}) {
 Mesh smoothed_in_core(test::ArrayVolume& volume, ReconstructOptions options) {
     const Vec3 spacing = volume.info().lattice.spacing;
     SmoothOptions smooth_options = options.smooth;
-    smooth_options.min_quality = options.min_quality.value_or(SmoothOptions{}.min_quality);
-    smooth_options.intersect_check = options.intersect_check;
+    smooth_options.min_quality = options.promises.quality_bound();
+    smooth_options.intersect_check = options.promises.intersect_check;
     smooth_options.scale = std::cbrt(spacing.x * spacing.y * spacing.z);
     options.smooth.passes = 0;
     Reconstruction plain = run(volume, options);
@@ -49,7 +49,7 @@ Mesh smoothed_in_core(test::ArrayVolume& volume, ReconstructOptions options) {
 void expect_smoothed_as_in_core(test::ArrayVolume& volume, const ReconstructOptions& options) {
     SCOPED_TRACE(name_of(options.smooth));
     const Reconstruction streamed = run(volume, options);
-    if (options.intersect_check) test::expect_sound(streamed.report.check);
+    if (options.promises.intersect_check) test::expect_sound(streamed.report.check);
     EXPECT_EQ(streamed.report.smoothing.held_vertices, 0u);
     EXPECT_EQ(test::surface_digest(streamed.mesh), test::surface_digest(smoothed_in_core(volume, options)));
 }

@@ -240,7 +240,7 @@ TEST(Memory, a_target_that_does_not_fit_is_refused_before_reading_for_the_model_
 TEST(Determinism, memory_that_does_not_bind_and_threads_change_nothing) {
     for (std::uint32_t passes : {0u, 3u})
         for (const ReconstructOptions& goal :
-             {ReconstructOptions{.reduce = 0.9}, ReconstructOptions{.max_error = 0.1}}) {
+             {ReconstructOptions{.reduce = 0.9}, ReconstructOptions{.promises = {.max_error = 0.1}}}) {
             SCOPED_TRACE(std::to_string(passes) + " passes");
             test::ArrayVolume volume = test::grain_volume({20, 20, 20}, 10, 2);
             ReconstructOptions options = goal;

@@ -89,7 +89,7 @@ TEST(OnTheFly, backgrounds_and_open_boxes_stay_sound) {
 TEST(OnTheFly, a_ball_of_few_faces_that_has_outgrown_its_first_box_stays_sound) {
     ReconstructOptions options = with_budget(0, 422);
     options.background = {0};
-    options.min_quality = 0;
+    options.promises.min_quality = 0;
     test::expect_sound(run(test::ball_volume({14, 14, 14}, 4.5), options).report.check);
 }
 
@@ -126,7 +126,7 @@ TEST(Memory, peak_does_not_grow_with_the_number_of_sections) {
 TEST(Memory, faces_left_that_do_not_fit_are_said_during_the_run) {
     test::ArrayVolume volume = test::noise_volume({8, 8, 120}, 4, 1);
     ReconstructOptions options = test::reduced(0.95);
-    options.max_error = 1e-6;
+    options.promises.max_error = 1e-6;
     options.memory = 27'000'000;
     std::uint64_t needed = 0;
     std::uint32_t at = 0;

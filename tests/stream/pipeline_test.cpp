@@ -126,12 +126,12 @@ TEST(Reconstruct, options_out_of_range_are_refused) {
         EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.room = bad; })) << bad;
         EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.reduce = bad; })) << bad;
         EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.perturbation = bad; })) << bad;
-        EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.min_quality = bad; })) << bad;
+        EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.promises.min_quality = bad; })) << bad;
         EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.smooth.reach = bad; })) << bad;
         EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.smooth.nifpms_reach = bad; })) << bad;
         EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.smooth.nifpms_bound = bad; })) << bad;
     }
-    EXPECT_TRUE(refused([](ReconstructOptions& o) { o.max_error = std::nan(""); }));
+    EXPECT_TRUE(refused([](ReconstructOptions& o) { o.promises.max_error = std::nan(""); }));
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.smooth.reach = 3; }));
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.smooth.passes = kMostSmoothPasses + 1; }));
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.smooth.filter = SmoothFilter(9); }));
@@ -146,21 +146,21 @@ TEST(Reconstruct, options_of_its_steps_out_of_range_are_refused) {
     for (const double bad : {std::nan(""), -1.0}) {
         SCOPED_TRACE(bad);
         const Lattice lattice{.size = {9, 9, 9}, .spacing = {bad, 1, 1}};
-        EXPECT_THROW(simplify(mesh, {.max_error = bad}), Error);
-        EXPECT_THROW(simplify(mesh, {.min_quality = bad}), Error);
-        EXPECT_THROW(simplify(mesh, {.scale = bad}), Error);
-        EXPECT_THROW(simplify(mesh, {.samples = lattice}), Error);
-        EXPECT_THROW(improve(mesh, {.min_quality = bad}), Error);
-        EXPECT_THROW(improve(mesh, {.scale = bad}), Error);
+        EXPECT_THROW(simplify(mesh, {.promises = {.max_error = bad}}), Error);
+        EXPECT_THROW(simplify(mesh, {.promises = {.min_quality = bad}}), Error);
+        EXPECT_THROW(simplify(mesh, {.promises = {.scale = bad}}), Error);
+        EXPECT_THROW(simplify(mesh, {.promises = {.samples = lattice}}), Error);
+        EXPECT_THROW(improve(mesh, {.promises = {.min_quality = bad}}), Error);
+        EXPECT_THROW(improve(mesh, {.promises = {.scale = bad}}), Error);
         EXPECT_THROW(improve(mesh, {.tolerance = bad}), Error);
-        EXPECT_THROW(improve(mesh, {.max_error = bad}), Error);
-        EXPECT_THROW(improve(mesh, {.scale_z = bad}), Error);
-        EXPECT_THROW(improve(mesh, {.samples = lattice}), Error);
-        EXPECT_THROW(smooth_lines(mesh, {.min_quality = bad}), Error);
-        EXPECT_THROW(smooth_lines(mesh, {.scale = bad}), Error);
-        EXPECT_THROW(smooth_lines(mesh, {.max_error = bad}), Error);
-        EXPECT_THROW(smooth_lines(mesh, {.scale_z = bad}), Error);
-        EXPECT_THROW(smooth_lines(mesh, {.samples = lattice}), Error);
+        EXPECT_THROW(improve(mesh, {.promises = {.max_error = bad}}), Error);
+        EXPECT_THROW(improve(mesh, {.promises = {.scale_z = bad}}), Error);
+        EXPECT_THROW(improve(mesh, {.promises = {.samples = lattice}}), Error);
+        EXPECT_THROW(smooth_lines(mesh, {.promises = {.min_quality = bad}}), Error);
+        EXPECT_THROW(smooth_lines(mesh, {.promises = {.scale = bad}}), Error);
+        EXPECT_THROW(smooth_lines(mesh, {.promises = {.max_error = bad}}), Error);
+        EXPECT_THROW(smooth_lines(mesh, {.promises = {.scale_z = bad}}), Error);
+        EXPECT_THROW(smooth_lines(mesh, {.promises = {.samples = lattice}}), Error);
         EXPECT_THROW(smooth(mesh, {.nifpms_reach = bad}), Error);
         EXPECT_THROW(smooth(mesh, {.lambda = bad}), Error);
         EXPECT_THROW(preserve_volumes(mesh, {}, {.scale = bad}), Error);
@@ -171,7 +171,7 @@ TEST(Reconstruct, options_of_its_steps_out_of_range_are_refused) {
 
 TEST(Reconstruct, all_steps_take_the_largest_quality) {
     ReconstructOptions options = reduced(0.5);
-    options.min_quality = 0.26;
+    options.promises.min_quality = 0.26;
     options.preserve_volume = options.improve = true;
     EXPECT_EQ(run(test::ball_volume({9, 9, 9}, 3), options).report.check.violation_count(), 0u);
 }
@@ -301,7 +301,8 @@ TEST(Reconstruct, sheets_on_an_open_boundary_do_not_cross_when_decimated) {
     for (const auto& sections : volumes)
         for (double quality : {0.0, 0.1}) {
             test::TextVolume volume(sections);
-            const ReconstructOptions options{.target_faces = 0, .min_quality = quality, .cap = false, .background = {}};
+            const ReconstructOptions options{
+                .target_faces = 0, .promises = {.min_quality = quality}, .cap = false, .background = {}};
             test::expect_sound(run(volume, options).report.check);
         }
 }
@@ -340,7 +341,7 @@ TEST(Reconstruct, a_pipe_that_cannot_be_read_twice_is_read_once) {
 TEST(Reconstruct, target_max_error_and_reduce_end_where_they_say) {
     test::ArrayVolume volume = test::grain_volume({16, 16, 16}, 6, 4);
     EXPECT_LE(run(volume, {.target_faces = 2000, .background = {}}).report.final_faces, 2000u);
-    const Reconstruction by_error = run(volume, {.max_error = 0.1, .background = {}});
+    const Reconstruction by_error = run(volume, {.promises = {.max_error = 0.1}, .background = {}});
     EXPECT_EQ(by_error.report.stopped, StopReason::kMaxError);
     EXPECT_LT(by_error.report.final_faces, by_error.report.initial_faces / 2);
     EXPECT_EQ(run(volume, {.target_faces = 1, .background = {}}).report.stopped, StopReason::kTopology);
@@ -434,11 +435,11 @@ TEST(Anisotropy, the_bound_on_quality_falls_with_the_ratio_of_the_spacings_unles
     };
     EXPECT_DOUBLE_EQ(bound({.reduce = 0.5}), 0.01);
     EXPECT_DOUBLE_EQ(bound({.reduce = 0.5, .scale_z = 0.25}), 0.04);
-    EXPECT_EQ(bound({.reduce = 0.5, .min_quality = 0.07}), 0.07);
+    EXPECT_EQ(bound({.reduce = 0.5, .promises = {.min_quality = 0.07}}), 0.07);
     EXPECT_EQ(bound({.reduce = 0.5, .improve = true}), 0.1) << "made for the shape of faces";
     EXPECT_EQ(bound({.reduce = 0.5, .preserve_volume = true}), 0.1) << "vertices must be able to move";
     EXPECT_EQ(bound({}), -1) << "nothing is decimated";
-    EXPECT_EQ(bound({.reduce = 0.5, .min_quality = 0}), 0);
+    EXPECT_EQ(bound({.reduce = 0.5, .promises = {.min_quality = 0}}), 0);
     volume.spaced({0.7, 0.7, 0.7});  // in floating point 0.1 * 0.7 / 0.7 is not 0.1
     EXPECT_EQ(bound({.reduce = 0.5}), 0.1);
 }
@@ -449,7 +450,7 @@ TEST(Anisotropy, decimation_between_sections_far_apart_ends_no_sooner_than_elsew
     const std::uint64_t cubes = run(volume, options).report.final_faces,
                         stretched = run(volume.spaced({1, 1, 30}), options).report.final_faces;
     ReconstructOptions bounded = options;
-    bounded.min_quality = 0.1;
+    bounded.promises.min_quality = 0.1;
     EXPECT_LT(stretched, 1.3 * cubes);
     EXPECT_LT(stretched, 0.8 * run(volume, bounded).report.final_faces);
 }

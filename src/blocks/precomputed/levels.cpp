@@ -15,7 +15,9 @@ std::uint32_t level_count(std::uint64_t faces) {
 }
 
 SimplifyOptions next_level_options(const Mesh& mesh, std::uint32_t threads) {
-    return {.target_faces = mesh.face_count() / kFacesPerLevel, .scale = typical_edge(mesh), .threads = threads};
+    return {.target_faces = mesh.face_count() / kFacesPerLevel,
+            .promises = {.scale = typical_edge(mesh)},
+            .threads = threads};
 }
 
 }  // namespace regionmesh

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include "judge/verdict/verdicts.h"
 
@@ -6,11 +7,11 @@ namespace regionmesh {
 namespace {
 
 /// Does the merged vertex stay strictly inside the limits, but for the coordinates that sides of the box hold?
-bool is_within_limits(const Collapse& collapse) {
-    const Vec3 p = collapse.position;
+bool is_within_limits(const Judge& judge, const Change& change) {
+    const Vec3 p = change.position;
     for (int axis = 0; axis < 3; ++axis) {
-        if (collapse.mesh[collapse.star.stays].sides >> (2 * axis) & 3) continue;
-        if (!(collapse.limits.low[axis] < p[axis] && p[axis] < collapse.limits.high[axis])) return false;
+        if (judge.mesh()[change.star.stays].sides >> (2 * axis) & 3) continue;
+        if (!(judge.limits().low[axis] < p[axis] && p[axis] < judge.limits().high[axis])) return false;
     }
     return true;
 }
@@ -28,16 +29,19 @@ bool lies_down_on_side(const Mesh& mesh, const EdgeStar& star) {
 
 }  // namespace
 
-Verdict test_intersect(Collapse& collapse) {
+Verdict test_intersect(const Judge& judge, Change& change) {
+    const Mesh& mesh = judge.mesh();
+    const EdgeStar& star = change.star;
     // A vertex that stays where it is adds nothing beyond the limits, which are convex.
-    if (!collapse.star.keeps_stays && !is_within_limits(collapse)) return Verdict::kIntersect;
-    const Verdict verdict =
-        collapse.tree ? collapse.intersect.verdict(collapse.mesh, *collapse.tree, collapse.rising, collapse.star,
-                                                   collapse.position, collapse.bounds)
-        : pinches_around(collapse.mesh, collapse.star, collapse.position, collapse.bounds) ? Verdict::kPinch
-                                                                                           : Verdict::kAccepted;
-    return verdict == Verdict::kAccepted && lies_down_on_side(collapse.mesh, collapse.star) ? Verdict::kIntersect
-                                                                                            : verdict;
+    if (!star.keeps_stays && !is_within_limits(judge, change)) return Verdict::kIntersect;
+    const std::span<const FaceId> gone = change.replaces_others() ? std::span(change.gone) : std::span<const FaceId>();
+    Verdict verdict = Verdict::kAccepted;
+    if (judge.tree())
+        verdict =
+            change.intersect.verdict(mesh, *judge.tree(), judge.rising(), star, change.position, judge.bounds(), gone);
+    else if (pinches_around(mesh, star, change.position, judge.bounds(), gone))
+        verdict = Verdict::kPinch;
+    return verdict == Verdict::kAccepted && lies_down_on_side(mesh, star) ? Verdict::kIntersect : verdict;
 }
 
 }  // namespace regionmesh

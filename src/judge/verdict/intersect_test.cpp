@@ -69,7 +69,7 @@ private:
 }  // namespace
 
 Verdict IntersectTest::verdict(const Mesh& mesh, const FaceTree& tree, const RisingFaces* rising, const EdgeStar& star,
-                               Vec3 position, const ShapeBounds& bounds) {
+                               Vec3 position, const ShapeBounds& bounds, std::span<const FaceId> gone) {
     if (star.is_flat) return Verdict::kAccepted;
     position_ = position;
     box_ = star.link_box;
@@ -87,6 +87,7 @@ Verdict IntersectTest::verdict(const Mesh& mesh, const FaceTree& tree, const Ris
         if (!is_simple && meets_itself(star)) return Verdict::kIntersect;
         Directions common = directions;
         tree.search(box_, [&](std::span<const std::uint32_t> faces) {
+            if (!gone.empty()) faces = without(gone, faces);
             if (directions != 0) faces = without_rising(mesh, *rising, star, faces, common);
             if (faces.empty()) return true;
             if (!is_prepared) prepare(mesh, star, first);
@@ -99,7 +100,15 @@ Verdict IntersectTest::verdict(const Mesh& mesh, const FaceTree& tree, const Ris
     }
     // A refusal is reported as all faces give it: the verdict is the same as without `rising`.
     if (verdict == Verdict::kAccepted || directions == 0) return verdict;
-    return this->verdict(mesh, tree, nullptr, star, position, bounds);
+    return this->verdict(mesh, tree, nullptr, star, position, bounds, gone);
+}
+
+std::span<const std::uint32_t> IntersectTest::without(std::span<const FaceId> gone,
+                                                      std::span<const std::uint32_t> faces) {
+    left_.clear();
+    for (const std::uint32_t f : faces)
+        if (std::ranges::find(gone, FaceId{f}) == gone.end()) left_.push_back(f);
+    return left_;
 }
 
 /// Leaves out each face of the star's interface that rises along one of the `common` directions, and keeps only such

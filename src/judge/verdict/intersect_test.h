@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "mesh/face_tree.h"
-#include "regionmesh/verdict.h"
 #include "judge/verdict/pinch.h"
 #include "judge/verdict/rising_faces.h"
 #include "judge/verdict/star_planes.h"
 #include "judge/verdict/vertex_numbers.h"
+#include "mesh/face_tree.h"
+#include "regionmesh/promises.h"
 
 namespace regionmesh {
 
@@ -22,6 +22,7 @@ public:
     ///              over it.
     ///   intersect  a new face would meet another, new or old, other than in shared vertices and edges, or the star
     ///              would sweep over a separate part of the surface.
+    /// `gone` are faces in the tree that the change removes, and that the star does not have.
     /// `rising` is null unless the faces bound regions: the first label of each face lies behind it, the second in
     /// front of it.
     ///
@@ -34,7 +35,7 @@ public:
     /// which without `rising` need not be outside the swept space. A skipped face makes more than 5 degrees with a face
     /// of the star at an edge (kLeastRise).
     Verdict verdict(const Mesh& mesh, const FaceTree& tree, const RisingFaces* rising, const EdgeStar& star,
-                    Vec3 position, const ShapeBounds& bounds);
+                    Vec3 position, const ShapeBounds& bounds, std::span<const FaceId> gone = {});
 
 private:
     /// A vertex near the star.
@@ -59,6 +60,7 @@ private:
     Corners corners_of(std::size_t face) const {
         return {&places_[corners_[3 * face]], &places_[corners_[3 * face + 1]], &places_[corners_[3 * face + 2]]};
     }
+    std::span<const std::uint32_t> without(std::span<const FaceId> gone, std::span<const std::uint32_t> faces);
     std::span<const std::uint32_t> without_rising(const Mesh& mesh, const RisingFaces& rising, const EdgeStar& star,
                                                   std::span<const std::uint32_t> faces, Directions& common);
     void find_near(const Mesh& mesh, const EdgeStar& star, std::span<const std::uint32_t> faces);
@@ -79,6 +81,7 @@ private:
     Vec3 position_;
     Box box_;                            // of all that the star sweeps
     std::vector<std::uint32_t> others_;  // faces that are not skipped; room for more
+    std::vector<std::uint32_t> left_;    // faces that are not gone
     StarPlanes planes_;
     int first_ = 0;                       // of the new faces under test
     std::uint32_t is_skipping_ = 0;       // 1 where rising faces are skipped

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "mesh/strata.h"
 #include "judge/verdict/verdicts.h"
+#include "mesh/strata.h"
 
 namespace regionmesh {
 namespace {
@@ -86,11 +86,25 @@ bool lands_on_box_edge(const Mesh& mesh, const EdgeStar& star) {
     });
 }
 
+/// Are the vertices that a flip joins neighbours already, or would its edge lie in a side of the box that has none of
+/// the old edge?
+bool joins_neighbours(const Mesh& mesh, const Flip& flip) {
+    const SideSet made = mesh[flip.c].sides & mesh[flip.d].sides, gone = mesh[flip.u].sides & mesh[flip.v].sides;
+    if ((made & ~gone) != 0) return true;
+    bool are_joined = false;
+    mesh.for_star(flip.c, [&](FaceId f, int) {
+        for (VertexId v : mesh[f].vertices) are_joined |= v == flip.d;
+    });
+    return are_joined;
+}
+
 }  // namespace
 
-Verdict test_link(Collapse& collapse) {
-    const Mesh& mesh = collapse.mesh;
-    const EdgeStar& star = collapse.star;
+Verdict test_link(const Judge& judge, Change& change) {
+    const Mesh& mesh = judge.mesh();
+    const EdgeStar& star = change.star;
+    if (star.kind == StarKind::kMove || star.kind == StarKind::kSplit) return Verdict::kAccepted;
+    if (change.is_flip()) return joins_neighbours(mesh, change.flip) ? Verdict::kLink : Verdict::kAccepted;
     if (star.faces.empty()) return Verdict::kLink;
     const bool is_met = star.keeps_stays ? is_met_by_half(mesh, star) : is_met_by_edge(star);
     if (!is_met || strips_apex(mesh, star)) return Verdict::kLink;

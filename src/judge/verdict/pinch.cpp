@@ -61,8 +61,8 @@ bool sweeps_over(Vec3 a, Vec3 b, Vec3 before, Vec3 now, Vec3 x) {
 
 }  // namespace
 
-Verdict test_pinch(Collapse& collapse) {
-    return pinches_at_spokes(collapse.star, collapse.bounds.min_dihedral_cosine) ? Verdict::kPinch : Verdict::kAccepted;
+Verdict test_pinch(const Judge& judge, Change& change) {
+    return pinches_at_spokes(change.star, judge.bounds().min_dihedral_cosine) ? Verdict::kPinch : Verdict::kAccepted;
 }
 
 bool pinches_beyond(const EdgeStar& star, int n, Vec3 position, Vec3 third, bool runs_back, const ShapeBounds& bounds) {
@@ -84,14 +84,15 @@ bool pinches_beside(const EdgeStar& star, int n, bool at_a, const KeptFace& kept
 
 namespace {
 
-bool pinches_at_link(const Mesh& mesh, const EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
+bool pinches_at_link(const Mesh& mesh, const EdgeStar& star, Vec3 position, const ShapeBounds& bounds,
+                     std::span<const FaceId> gone) {
     for (int n = 0; n < star.face_count(); ++n) {
         const StarFace& f = star.faces[n];
         bool pinched = false;
         mesh.for_star(f.a, [&](FaceId g, int place) {
             const auto& v = mesh[g].vertices;
             const VertexId after = v[place_after(place)], before = v[place_before(place)];
-            if (pinched || (after != f.b && before != f.b)) return;
+            if (pinched || (after != f.b && before != f.b) || std::ranges::find(gone, g) != gone.end()) return;
             const VertexId third = after == f.b ? before : after;
             if (third == star.goes || (third == star.stays && !star.keeps_stays)) return;
             pinched = pinches_beyond(star, n, position, mesh.position(third), before == f.b, bounds);
@@ -121,8 +122,10 @@ bool pinches_at_stays(const Mesh& mesh, const EdgeStar& star, const ShapeBounds&
 
 }  // namespace
 
-bool pinches_around(const Mesh& mesh, const EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
-    return pinches_at_link(mesh, star, position, bounds) || (star.keeps_stays && pinches_at_stays(mesh, star, bounds));
+bool pinches_around(const Mesh& mesh, const EdgeStar& star, Vec3 position, const ShapeBounds& bounds,
+                    std::span<const FaceId> gone) {
+    return pinches_at_link(mesh, star, position, bounds, gone) ||
+           (star.keeps_stays && pinches_at_stays(mesh, star, bounds));
 }
 
 }  // namespace regionmesh

@@ -1,6 +1,8 @@
 // Do faces of the new star come too close to neighbouring faces? (P test 2)
 #pragma once
 
+#include <span>
+
 #include "judge/edge_star.h"
 #include "judge/verdict/shape_bounds.h"
 
@@ -23,7 +25,8 @@ struct KeptFace {
 /// face, or has it taken a place beyond it? `at_a` tells which of its corners the other end of the edge is.
 bool pinches_beside(const EdgeStar& star, int n, bool at_a, const KeptFace& kept, const ShapeBounds& bounds);
 
-/// Both for all edges that the star shares with its surroundings, looked up in the mesh.
-bool pinches_around(const Mesh& mesh, const EdgeStar& star, Vec3 position, const ShapeBounds& bounds);
+/// Both for all edges that the star shares with its surroundings, looked up in the mesh, but for the faces in `gone`.
+bool pinches_around(const Mesh& mesh, const EdgeStar& star, Vec3 position, const ShapeBounds& bounds,
+                    std::span<const FaceId> gone = {});
 
 }  // namespace regionmesh

@@ -65,10 +65,10 @@ bool may_leave(const Mesh& mesh, const EdgeStar& star, int count, const LowQuali
 
 }  // namespace
 
-Verdict test_quality(Collapse& collapse) {
-    const EdgeStar& star = collapse.star;
-    const double bound3 = cube_of_bound(collapse.bounds);
-    const Lanes3<Double2> merged = both(collapse.position);
+Verdict test_quality(const Judge& judge, Change& change) {
+    const EdgeStar& star = change.star;
+    const double bound3 = cube_of_bound(judge.bounds());
+    const Lanes3<Double2> merged = both(change.position);
     double worst3 = 1;
     int below = 0;
     for (std::size_t n = 0; n < star.pairs.size(); ++n) {
@@ -79,10 +79,9 @@ Verdict test_quality(Collapse& collapse) {
             below += (own3[lane] < bound3) & (2 * static_cast<int>(n) + lane < star.face_count());
         }
     }
-    collapse.worst_quality3 = worst3;
-    return below > 0 && !may_leave(collapse.mesh, star, star.face_count(), {worst3, below}, bound3)
-               ? Verdict::kQuality
-               : Verdict::kAccepted;
+    change.worst_quality3 = worst3;
+    return below > 0 && !may_leave(judge.mesh(), star, star.face_count(), {worst3, below}, bound3) ? Verdict::kQuality
+                                                                                                   : Verdict::kAccepted;
 }
 
 double fan_quality3(const Mesh& mesh, const EdgeStar& around, VertexId target, Vec3 at_target,

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "regionmesh/mesh.h"
 #include "judge/edge_star.h"
+#include "regionmesh/mesh.h"
 
 namespace regionmesh {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "mesh/sample_lines.h"
 #include "judge/verdict/verdicts.h"
+#include "mesh/sample_lines.h"
 
 namespace regionmesh {
 namespace {
@@ -46,7 +46,7 @@ struct Lines {
 };
 
 /// From sample `first` of a line on, the label is entered `times` times more after the collapse than before.
-struct Change {
+struct Entry {
     std::uint32_t section, row, first;
     Label label;
     int times;
@@ -54,7 +54,7 @@ struct Change {
 };
 
 void note_crossings(const Lines& lines, std::array<Vec3, 3> p, const std::array<Label, 2>& labels, int times,
-                    std::vector<Change>& changes) {
+                    std::vector<Entry>& changes) {
     for (Vec3& corner : p) corner = lines.permuted(corner);
     const Vec3 low = min(p[0], min(p[1], p[2])), high = max(p[0], max(p[1], p[2]));
     const std::uint32_t row_first = lines.first_from(1, low.y), row_end = lines.end_up_to(1, high.y);
@@ -109,7 +109,7 @@ bool changes_samples(const Lattice& lattice, std::span<const LabelledTriangle> b
     if (!all[0].has_samples()) return false;
     const Lines& lines =
         *std::min_element(all.begin(), all.end(), [](const Lines& a, const Lines& b) { return a.count() < b.count(); });
-    thread_local std::vector<Change> changes;
+    thread_local std::vector<Entry> changes;
     changes.clear();
     for (const LabelledTriangle& face : before) note_crossings(lines, face.at, face.labels, -1, changes);
     for (const LabelledTriangle& face : after) {
@@ -118,7 +118,7 @@ bool changes_samples(const Lattice& lattice, std::span<const LabelledTriangle> b
         note_crossings(lines, face.at, face.labels, 1, changes);
     }
     // Crossings between the same two samples cancel: no sample lies between them.
-    std::sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.place() < b.place(); });
+    std::sort(changes.begin(), changes.end(), [](const Entry& a, const Entry& b) { return a.place() < b.place(); });
     for (std::size_t n = 0; n < changes.size();) {
         const std::size_t first = n;
         int times = 0;
@@ -128,19 +128,18 @@ bool changes_samples(const Lattice& lattice, std::span<const LabelledTriangle> b
     return false;
 }
 
-Verdict test_samples(Collapse& collapse) {
-    const EdgeStar& star = collapse.star;
-    if (!collapse.samples || star.is_flat) return Verdict::kAccepted;
+Verdict test_samples(const Judge& judge, Change& change) {
+    const std::optional<Lattice>& samples = judge.promises().samples;
+    if (!samples || (change.star.is_flat && !change.is_flip())) return Verdict::kAccepted;
     thread_local std::vector<LabelledTriangle> before, after;
-    before.clear();
-    for (int n = 0; n < star.face_count(); ++n)
-        before.push_back({{star.at_apex(n), star.at_a(n), star.at_b(n)}, collapse.mesh[star.faces[n].face].labels});
-    for (FaceId f : star.dead) before.push_back({collapse.mesh.corners(f), collapse.mesh[f].labels});
-    const SweptSamples swept = find_swept_samples(*collapse.samples, before, collapse.position);
-    if (swept != SweptSamples::kPerhaps) return swept == SweptSamples::kSome ? Verdict::kSamples : Verdict::kAccepted;
-    after.assign(before.begin(), before.begin() + star.face_count());
-    for (LabelledTriangle& face : after) face.at[0] = collapse.position;
-    return changes_samples(*collapse.samples, before, after) ? Verdict::kSamples : Verdict::kAccepted;
+    list_faces_before(judge.mesh(), change, before);
+    if (!change.is_flip()) {
+        const SweptSamples swept = find_swept_samples(*samples, before, change.position);
+        if (swept != SweptSamples::kPerhaps)
+            return swept == SweptSamples::kSome ? Verdict::kSamples : Verdict::kAccepted;
+    }
+    list_faces_after(judge.mesh(), change, after);
+    return changes_samples(*samples, before, after) ? Verdict::kSamples : Verdict::kAccepted;
 }
 
 }  // namespace regionmesh

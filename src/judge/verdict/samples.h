@@ -1,13 +1,10 @@
 // Does a change of the surface carry samples of the lattice into other regions?
 #pragma once
 
-#include <array>
 #include <span>
 
-#include "regionmesh/label.h"
-#include "regionmesh/lattice.h"
-#include "regionmesh/vec3.h"
 #include "judge/verdict/swept_samples.h"
+#include "regionmesh/lattice.h"
 
 namespace regionmesh {
 

@@ -1,19 +1,13 @@
 // Which samples can a moving vertex reach? A cheap bound before the exact test.
 #pragma once
 
-#include <array>
 #include <span>
 
-#include "regionmesh/label.h"
+#include "judge/labelled_triangle.h"
 #include "regionmesh/lattice.h"
 #include "regionmesh/vec3.h"
 
 namespace regionmesh {
-
-struct LabelledTriangle {
-    std::array<Vec3, 3> at;
-    std::array<Label, 2> labels;  // the normal points from the first to the second
-};
 
 enum class SweptSamples {
     kNone,     // none changes its region, and no new face meets one

@@ -250,7 +250,7 @@ Places LindstromTurk::place(const Mesh& mesh, const EdgeStar& star) {
 }  // namespace
 
 std::unique_ptr<Placement> make_lindstrom_turk_placement(const Mesh&, const SimplifyOptions& options, std::uint32_t) {
-    return std::make_unique<LindstromTurk>(options.scale);
+    return std::make_unique<LindstromTurk>(options.promises.scale);
 }
 
 }  // namespace regionmesh

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "regionmesh/simplify.h"
 #include "judge/judge.h"
+#include "regionmesh/simplify.h"
 
 namespace regionmesh {
 

@@ -19,7 +19,7 @@ Candidates::Candidates(const Mesh& mesh, Placement& placement, const SimplifyOpt
       placement_(placement),
       options_(options),
       queue_(mesh.vertex_end(), order),
-      key_unit_(std::ldexp(1.0, -4 * std::ilogb(options.scale))) {
+      key_unit_(std::ldexp(1.0, -4 * std::ilogb(options.promises.scale))) {
     partner_.resize(mesh.vertex_end(), kNoVertex);
     floor_.resize(mesh.vertex_end(), kNoFloor);
 }
@@ -96,11 +96,12 @@ bool Candidates::may_go(VertexId v, VertexId w) const {
 float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge, Scratch& scratch) const {
     constexpr float kNever = std::numeric_limits<float>::infinity();
     if (!(edge.cost <= options_.max_cost)) return kNever;
-    if (std::isfinite(options_.max_error) && edge.cost > options_.max_error * options_.max_error * edge.weight) {
+    if (std::isfinite(options_.promises.max_error) &&
+        edge.cost > options_.promises.max_error * options_.promises.max_error * edge.weight) {
         scratch.notes.has_edges_over_error = true;
         return kNever;
     }
-    const double scale2 = options_.scale * options_.scale;
+    const double scale2 = options_.promises.scale * options_.promises.scale;
     return static_cast<float>(
         key_unit_ * (edge.rank + options_.perturbation * scale2 * scale2 * hash_unit(index(goes), index(stays))));
 }

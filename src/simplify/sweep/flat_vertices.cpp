@@ -2,17 +2,17 @@
 
 #include <algorithm>
 
-#include "simplify/sweep/sweep_marks.h"
-#include "simplify/tuning.h"
 #include "judge/verdict/quality.h"
 #include "judge/verdict/verdicts.h"
+#include "simplify/sweep/sweep_marks.h"
+#include "simplify/tuning.h"
 
 namespace regionmesh {
 namespace {
 
 class FlatSweeps {
 public:
-    FlatSweeps(Mesh& mesh, Collapse& collapse) : mesh_(mesh), collapse_(collapse), marks_(mesh.vertex_end()) {}
+    explicit FlatSweeps(Judge& judge) : judge_(judge), mesh_(judge.mesh()), marks_(mesh_.vertex_end()) {}
 
     /// Returns the number of vertices removed.
     std::uint32_t sweep() {
@@ -51,15 +51,15 @@ private:
         if (around_.face_count() > kMostPrepassFaces || !is_closed()) return false;
         const VertexId target = best_target();
         if (target == kNoVertex) return false;
-        EdgeStar& star = collapse_.star;
+        EdgeStar& star = change_.star;
         gather_half(mesh_, v, target, star);
-        if (topology_verdict(collapse_) != Verdict::kAccepted) return false;
-        collapse_.position = star.at_stays;
+        if (topology_verdict(judge_, change_) != Verdict::kAccepted) return false;
+        change_.position = star.at_stays;
         set_normals(star, star.at_stays);
         note_flat(star, star.at_stays);
-        if (test_error(collapse_) != Verdict::kAccepted) return false;
-        find_error(collapse_);
-        collapse_edge(mesh_, collapse_);
+        if (test_error(judge_, change_) != Verdict::kAccepted) return false;
+        find_error(judge_, change_);
+        judge_.apply(change_);
         marks_.touch(target);
         for (VertexId w : star.link) marks_.touch(w);
         return true;
@@ -77,7 +77,7 @@ private:
         double best3 = 0;
         for (const StarFace& face : around_.faces) {  // each neighbour comes first in one face
             if (mesh_[face.a].is_fixed || marks_.is_touched(face.a)) continue;
-            const double own3 = fan_quality3(mesh_, around_, face.a, mesh_.position(face.a), collapse_.bounds);
+            const double own3 = fan_quality3(mesh_, around_, face.a, mesh_.position(face.a), judge_.bounds());
             if (own3 > best3 || (own3 == best3 && own3 > 0 && face.a < best)) {
                 best3 = own3;
                 best = face.a;
@@ -86,18 +86,19 @@ private:
         return best;
     }
 
-    Mesh& mesh_;
-    Collapse& collapse_;
+    Judge& judge_;
+    const Mesh& mesh_;
+    Change change_;
     EdgeStar around_;  // the faces of the current vertex
     SweepMarks marks_;
 };
 
 }  // namespace
 
-std::uint32_t remove_flat_vertices(Mesh& mesh, Collapse& collapse, std::uint32_t target_faces) {
-    FlatSweeps sweeps(mesh, collapse);
+std::uint32_t remove_flat_vertices(Judge& judge, std::uint32_t target_faces) {
+    FlatSweeps sweeps(judge);
     std::uint32_t removed = 0;
-    sweep_above(target_faces, mesh, [&] {
+    sweep_above(target_faces, judge.mesh(), [&] {
         const std::uint32_t gone = sweeps.sweep();
         removed += gone;
         return gone;

@@ -12,8 +12,8 @@ namespace regionmesh {
 /// new face is turned over, the new faces tile the very polygon that the old ones did: nothing is pinched or met, no
 /// sample changes its region, and no cost is above 0. So neither quadrics nor a tree of faces are needed, which are
 /// then made of fewer faces. Fixed vertices neither go nor get faces. Ends where another sweep would go below the
-/// target. The bounds of the tests are those of `collapse`. Requires label counts. Returns the number of vertices
+/// target. Requires label counts. Returns the number of vertices
 /// removed.
-std::uint32_t remove_flat_vertices(Mesh& mesh, Collapse& collapse, std::uint32_t target_faces);
+std::uint32_t remove_flat_vertices(Judge& judge, std::uint32_t target_faces);
 
 }  // namespace regionmesh

@@ -6,22 +6,21 @@
 
 #include "base/parallel_for.h"
 #include "base/triangle.h"
-#include "mesh/strata.h"
 #include "judge/try_together.h"
-#include "simplify/tuning.h"
 #include "judge/verdict/quality.h"
 #include "judge/verdict/verdicts.h"
+#include "mesh/strata.h"
+#include "simplify/tuning.h"
 
 namespace regionmesh {
 
-Prepass::Prepass(Mesh& mesh, Placement& placement, const Collapse& collapse, const SimplifyOptions& options,
-                 double max_cost)
-    : mesh_(mesh),
+Prepass::Prepass(Judge& judge, Placement& placement, const SimplifyOptions& options, double max_cost)
+    : judge_(judge),
+      mesh_(judge.mesh()),
       placement_(placement),
       options_(options),
       max_cost_(max_cost),
-      attempt_{collapse},
-      marks_(mesh.vertex_end()) {}
+      marks_(mesh_.vertex_end()) {}
 
 std::uint32_t Prepass::sweep(VerdictCounts& verdicts) {
     marks_.begin_sweep();
@@ -64,7 +63,7 @@ void Prepass::find(Fault fault, std::uint32_t threads) {
 bool Prepass::has_fault(Fault fault, FaceId f) const { return fault == Fault::kSliver ? is_sliver(f) : is_fold(f); }
 
 bool Prepass::is_sliver(FaceId f) const {
-    const double bound = attempt_.collapse.bounds.min_quality;
+    const double bound = judge_.bounds().min_quality;
     const auto p = mesh_.corners(f);
     return !quality_is_surely_above(bound, p[0], p[1], p[2]) &&
            quality_terms(p[0], p[1], p[2]).cube() < bound * bound * bound;
@@ -148,9 +147,9 @@ void Prepass::test_vertex(VertexId v, Attempt& attempt) const {
         return a.worst_quality3 != b.worst_quality3 ? a.worst_quality3 > b.worst_quality3 : a.vertex < b.vertex;
     });
     for (std::size_t n = 0; n < std::min(targets.size(), kPrepassAttempts); ++n) {
-        EdgeStar& star = attempt.collapse.star;
+        EdgeStar& star = attempt.change.star;
         gather_half(mesh_, v, targets[n].vertex, star);
-        const Verdict verdict = examine(attempt.collapse, [&] { return Places{star.at_stays}; });
+        const Verdict verdict = examine(judge_, attempt.change, [&] { return Places{star.at_stays}; });
         ++attempt.verdicts[static_cast<int>(verdict)];
         attempt.is_accepted = verdict == Verdict::kAccepted;
         if (attempt.is_accepted) return;
@@ -163,15 +162,14 @@ void Prepass::find_targets(VertexId v, Attempt& attempt) const {
     if (!gather_ends(v, attempt)) return;
     const std::span<const VertexId> ends(attempt.ends.data(), attempt.end_count);
     placement_.rank_halves(mesh_, v, ends, attempt.costs);
-    const auto is_cheap = [&](const HalfCost& cost) { return cost.is_within(max_cost_, options_.max_error); };
+    const auto is_cheap = [&](const HalfCost& cost) { return cost.is_within(max_cost_, options_.promises.max_error); };
     if (std::none_of(attempt.costs.begin(), attempt.costs.end(), is_cheap)) return;
     gather_vertex(mesh_, v, attempt.around);
     attempt.box.add(attempt.around.link_box.low);
     attempt.box.add(attempt.around.link_box.high);
     for (std::size_t n = 0; n < ends.size(); ++n) {
         if (!is_cheap(attempt.costs[n])) continue;
-        const double quality3 =
-            fan_quality3(mesh_, attempt.around, ends[n], mesh_.position(ends[n]), attempt.collapse.bounds);
+        const double quality3 = fan_quality3(mesh_, attempt.around, ends[n], mesh_.position(ends[n]), judge_.bounds());
         if (quality3 > 0) attempt.targets.push_back({ends[n], quality3});
     }
 }
@@ -205,9 +203,9 @@ void Prepass::add_end(VertexId end, Attempt& attempt) const {
 }
 
 void Prepass::make(Attempt& attempt) {
-    const EdgeStar& star = attempt.collapse.star;
+    const EdgeStar& star = attempt.change.star;
     placement_.collapse(mesh_, star, star.at_stays);
-    collapse_edge(mesh_, attempt.collapse);
+    judge_.apply(attempt.change);
     marks_.touch(star.stays);
     for (VertexId v : star.link) marks_.touch(v);
 }

@@ -23,9 +23,8 @@ public:
         kFold,    // beside a line, and turned over against a face of the same interface that is no smaller
     };
 
-    /// `max_cost` is the threshold, squared length times area. Tests have their bounds in `collapse`.
-    Prepass(Mesh& mesh, Placement& placement, const Collapse& collapse, const SimplifyOptions& options,
-            double max_cost);
+    /// `max_cost` is the threshold, squared length times area.
+    Prepass(Judge& judge, Placement& placement, const SimplifyOptions& options, double max_cost);
 
     /// Returns the number of collapses, and adds the verdicts of all that were tried.
     std::uint32_t sweep(VerdictCounts& verdicts);
@@ -44,11 +43,11 @@ private:
 
     /// To remove a vertex, or one of a face.
     struct Attempt {
-        Collapse collapse;
+        Change change = {};
         Box box = {};                     // see try_together
         VerdictCounts verdicts = {};      // of all collapses tested
         std::vector<VertexId> kept = {};  // vertices that cannot be removed
-        bool is_accepted = false;         // `collapse`
+        bool is_accepted = false;         // `change`
         // Of the current vertex:
         EdgeStar around = {};                  // all its faces
         std::vector<VertexId> line_ends = {};  // its neighbours by edges between lines
@@ -71,7 +70,8 @@ private:
     void add_end(VertexId end, Attempt& attempt) const;
     void make(Attempt& attempt);
 
-    Mesh& mesh_;
+    Judge& judge_;
+    const Mesh& mesh_;
     Placement& placement_;
     const SimplifyOptions& options_;
     double max_cost_;

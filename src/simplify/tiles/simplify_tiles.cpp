@@ -19,7 +19,7 @@ VerdictCounts collapse_up_to(double threshold, Mesh& mesh, const CollapseBounds&
     SimplifyOptions own = options.simplify;
     own.on_progress = {};
     own.target_faces = target_faces;
-    own.max_cost = std::min(options.simplify.max_cost, threshold * std::pow(own.scale, 4));
+    own.max_cost = std::min(options.simplify.max_cost, threshold * std::pow(own.promises.scale, 4));
     return collapse_edges(mesh, own, bounds).verdicts;
 }
 
@@ -45,7 +45,7 @@ std::vector<TileCounts> counts_at(std::span<const double> thresholds, Tile& tile
     const std::uint64_t own_faces = faces.faces_of(number).size(), inside = tile.inside_count();
     CostHistogram histogram;
     for (const double threshold : thresholds)
-        histogram.costs.push_back(threshold * std::pow(options.simplify.scale, 4));
+        histogram.costs.push_back(threshold * std::pow(options.simplify.promises.scale, 4));
     collapse_up_to(thresholds.back(), tile.mesh(),
                    {.limits = faces.grid().limits(number), .refresh = false, .histogram = &histogram},
                    static_cast<std::uint32_t>(std::ceil(options.keep_share * mesh.face_count())), options);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "judge/tuning.h"
 #include "simplify/tuning.h"
 
 namespace regionmesh {

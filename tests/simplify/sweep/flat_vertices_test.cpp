@@ -17,8 +17,9 @@ using test::run;
 
 std::uint32_t remove_flat(Mesh& mesh, std::uint32_t target_faces = 0) {
     count_labels(mesh);
-    Collapse collapse{.mesh = mesh, .bounds = {}};
-    return remove_flat_vertices(mesh, collapse, target_faces);
+    const Promises promises;
+    Judge judge(mesh, promises, {.sees_others = false});
+    return remove_flat_vertices(judge, target_faces);
 }
 
 Mesh block() { return run(test::solid_volume({12, 12, 12})).mesh; }

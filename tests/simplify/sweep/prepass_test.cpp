@@ -24,12 +24,9 @@ struct Swept {
 template <class Work>
 void with_prepass(Mesh& mesh, double max_cost, const SimplifyOptions& options, Work&& work) {
     count_labels(mesh);
-    FaceTree tree(mesh);
     const std::unique_ptr<Placement> placement = make_placement(mesh, options);
-    Collapse collapse{.mesh = mesh,
-                      .tree = options.intersect_check ? &tree : nullptr,
-                      .bounds = {.min_quality = options.min_quality}};
-    Prepass prepass(mesh, *placement, collapse, options, max_cost);
+    Judge judge(mesh, options.promises);
+    Prepass prepass(judge, *placement, options, max_cost);
     work(prepass);
 }
 
@@ -72,14 +69,14 @@ TEST(Prepass, keeps_all_strata_and_meets_nothing) {
 TEST(Prepass, holds_tangled_surfaces_apart) {
     for (std::uint32_t seed : {1u, 2u, 3u}) {
         Mesh mesh = run(test::noise_volume({9, 9, 9}, 4, seed)).mesh;
-        sweep(mesh, 8, 10, {.min_quality = 0});
+        sweep(mesh, 8, 10, {.promises = {.min_quality = 0}});
         test::expect_sound(check(mesh));
     }
 }
 
 TEST(Prepass, without_the_intersection_test_still_keeps_faces_from_closing) {
     Mesh mesh = many_grains();
-    const Swept done = sweep(mesh, 8, 1, {.intersect_check = false});
+    const Swept done = sweep(mesh, 8, 1, {.promises = {.intersect_check = false}});
     EXPECT_GT(done.removed, 0u);
     EXPECT_EQ(done.verdicts[static_cast<int>(Verdict::kIntersect)], 0u);
     for (const Violation& violation : check(mesh).violations) EXPECT_EQ(violation.kind, ViolationKind::kCrossingFaces);
@@ -115,7 +112,7 @@ TEST(Prepass, costs_no_more_than_the_threshold) {
     sweep(dear, 8, 1e-1);
     EXPECT_GT(cheap.face_count(), dear.face_count());
     Mesh exact = ball();
-    sweep(exact, 8, 1, {.max_error = 0});
+    sweep(exact, 8, 1, {.promises = {.max_error = 0}});
     EXPECT_GE(exact.face_count(), cheap.face_count()) << "no more than what costs nothing";
 }
 
@@ -148,7 +145,7 @@ TEST(Prepass, removes_slivers_and_tries_no_vertex_twice_in_vain) {
         Mesh mesh = smoothed(test::noise_volume({14, 14, 14}, 3, 6));
         constexpr double kBound = 0.1;
         const std::uint32_t before = faces_below(mesh, kBound);
-        with_prepass(mesh, 1e-2, {.min_quality = kBound}, [&](Prepass& prepass) {
+        with_prepass(mesh, 1e-2, {.promises = {.min_quality = kBound}}, [&](Prepass& prepass) {
             prepass.find(Prepass::Fault::kSliver, 2);
             VerdictCounts verdicts{};
             const auto remove = [&] {

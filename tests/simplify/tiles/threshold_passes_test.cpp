@@ -95,7 +95,7 @@ TEST(ThresholdPasses, stops_at_the_largest_error_where_there_is_no_goal) {
     Chunk batch = whole(volume);
     const std::size_t faces = batch.faces.size();
     PassOptions options = to(0);
-    options.tiles.simplify.max_error = 0.1;
+    options.tiles.simplify.promises.max_error = 0.1;
     simplify_in_passes(batch, plan_of(volume), options);
     EXPECT_LT(batch.faces.size(), faces / 2);
     EXPECT_GT(batch.faces.size(), faces / 20);
