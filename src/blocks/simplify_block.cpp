@@ -6,9 +6,9 @@
 
 #include "regionmesh/limits.h"
 #include "simplify/collapse_edges.h"
+#include "simplify/decimate.h"
 #include "simplify/tiles/mesh_chunk.h"
 #include "simplify/tiles/simplify_tiles.h"
-#include "simplify/tiles/threshold_passes.h"
 
 namespace regionmesh {
 namespace {
@@ -20,16 +20,6 @@ constexpr double kNearLeast = 1.1;
 /// Faces of a tile of trials; one tile in kSampledTiles is tried. AAL in blocks of 109 has 46 thousand faces in a
 /// block: trials of all tiles of kTileFaces took 1.0 of 8.4 s, these take 0.2 s.
 constexpr std::uint32_t kTrialFaces = 4096;
-
-/// Tiles of `side` cells; the walls of the outermost are those of the block.
-TileGrid grid_of(const BlockChunk& block, std::uint32_t side, std::uint32_t shift) {
-    return {.origin = block.lattice.origin,
-            .spacing = block.lattice.spacing,
-            .size = block.cells.size(),
-            .cells = {side, side, side},
-            .shift = {shift, shift, shift},
-            .first_cell = block.cells.low};
-}
 
 TilePlan plan_of(const BlockChunk& block) {
     Lattice lattice = block.lattice;
@@ -53,27 +43,24 @@ std::uint32_t side_of_tiles(const BlockChunk& block, std::uint32_t faces) {
     return static_cast<std::uint32_t>(std::max(std::ceil(std::cbrt(cells / tiles)), 8.0));
 }
 
-Box limits_of(const BlockChunk& block) {
-    const TileGrid whole{.origin = block.lattice.origin,
-                         .spacing = block.lattice.spacing,
-                         .size = block.cells.size(),
-                         .cells = block.cells.size(),
-                         .first_cell = block.cells.low};
-    return whole.limits(0);
+Box limits_of(const BlockChunk& block) { return grid_of(plan_of(block), {}).limits(0); }
+
+/// Tiles of `side` cells; the walls of the outermost are those of the block.
+TileGrid cubes(const BlockChunk& block, std::uint32_t side, std::uint32_t shift) {
+    return grid_of(plan_of(block), {side, side, side}, {shift, shift, shift});
 }
 
 /// Tiles with about `faces` faces, whose walls lie half a tile from those of the block.
 TileGrid threshold_grid(const BlockChunk& block, std::uint32_t faces) {
     const std::uint32_t side = side_of_tiles(block, faces);
-    return grid_of(block, side, side / 2);
+    return cubes(block, side, side / 2);
 }
 
 /// The block as one mesh, with one heap.
-CollapseResult collapse_whole(BlockChunk& block, const SimplifyOptions& options, bool refresh) {
+void collapse_whole(BlockChunk& block, const SimplifyOptions& options) {
     Mesh mesh = sorted_mesh_of(std::exchange(block.chunk, {}));
-    const CollapseResult done = collapse_edges(mesh, options, {.limits = limits_of(block), .refresh = refresh});
+    collapse_edges(mesh, options, {.limits = limits_of(block), .refresh = false});
     block.chunk = take_chunk(mesh);
-    return done;
 }
 
 SimplifyOptions up_to(double threshold, const BlockSimplifyOptions& options) {
@@ -86,12 +73,9 @@ SimplifyOptions up_to(double threshold, const BlockSimplifyOptions& options) {
 
 void simplify_low(BlockChunk& block, double share, const BlockSimplifyOptions& options) {
     if (share * kFreeMargin >= 1) return;
-    TileOptions tiles = tile_options(options);
-    tiles.keep_share = std::min(share * kTileMargin, 1.0);
-    tiles.free_share = share > kFreeFrom ? share * kFreeMargin : 1;
-    const TileGrid grid = grid_of(block, kTileCells, 0);
+    const TileGrid grid = cubes(block, kTileCells, 0);
     TiledFaces faces(block.chunk, {}, grid, options.threads);
-    TileResult result = simplify_tiles(faces, tiles);
+    TileResult result = simplify_tiles(faces, first_stage(options.simplify, share, options.threads));
     block.chunk = std::move(result.left);
 }
 
@@ -123,7 +107,7 @@ void simplify_up_to(BlockChunk& block, double threshold, std::uint64_t least, co
     if (held < std::uint64_t{kFewestTiles} * kTileFaces) {
         SimplifyOptions own = up_to(threshold, options);
         own.target_faces = static_cast<std::uint32_t>(goal);
-        collapse_whole(block, own, false);
+        collapse_whole(block, own);
         return;
     }
     const TileGrid grid = threshold_grid(block, kTileFaces);
@@ -163,11 +147,15 @@ StopReason simplify_and_log(BlockChunk& block, double threshold, const BlockSimp
 StopReason simplify_to(BlockChunk& block, std::uint64_t target, const BlockSimplifyOptions& options) {
     const std::uint64_t goal = target + block.other_faces;
     if (block.chunk.faces.size() <= goal) return StopReason::kTarget;
-    const PassOptions passes{.target_faces = target == 0 ? 0 : goal, .tiles = tile_options(options)};
-    simplify_in_passes(block.chunk, plan_of(block), passes);
     SimplifyOptions own = options.simplify;
     own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
-    return collapse_whole(block, own, true).stopped;
+    own.threads = options.threads;
+    DecimateResult done;
+    Mesh mesh = decimate(
+        std::exchange(block.chunk, {}),
+        {.tiles = plan_of(block), .margin = target == 0 ? 0.0 : 1.0, .last = {.limits = limits_of(block)}}, own, done);
+    block.chunk = take_chunk(mesh);
+    return done.stopped;
 }
 
 }  // namespace regionmesh

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "judge/error_bound.h"
-#include "simplify/collapse_edges.h"
-#include "simplify/tiles/threshold_passes.h"
+#include "simplify/decimate.h"
 #include "stream/footprint.h"
 #include "stream/stage_options.h"
 #include "stream/tuning.h"
@@ -116,22 +115,23 @@ void SimplifyStage::trim(std::uint64_t goal, double safe_high, bool is_last) {
     SimplifyOptions own = simplify_options(options_, shape_);
     own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
     own.bounds_regions = false;  // few collapses are left: not worth 4 bytes a face of the whole mesh
-    const CollapseBounds bounds{.limits = box_of({.high = safe_high}, shape_.axis()),
-                                .refresh = is_last,
-                                .threads = options_.threads,
-                                .is_large = true};
+    const DecimatePlan plan{.tiles = plan_.tiles,
+                            .last = {.limits = box_of({.high = safe_high}, shape_.axis()),
+                                     .refresh = is_last,
+                                     .threads = options_.threads,
+                                     .is_large = true}};
     const std::uint64_t held = mesh_.face_count();
     own.on_progress = [&](std::uint64_t faces) {
         const auto gone = static_cast<double>(held - faces);
         if (is_last && held > goal) log_.advance(WorkStage::kTrim, gone / static_cast<double>(held - goal));
         log_.report_progress(is_last ? "decimate" : "reconstruct");
     };
-    const std::size_t mesh_bytes = mesh_.bytes();
-    const CollapseResult done = collapse_edges(mesh_, own, bounds);
+    DecimateResult done;
+    collapse_to_target(mesh_, plan, own, done);
     log_.add(done.verdicts);
     log_.report().refreshes += done.refreshes;
     stopped_ = done.stopped;
-    log_.note_bytes(held, mesh_bytes + done.bytes);
+    log_.note_bytes(held, done.bytes);
 }
 
 }  // namespace regionmesh

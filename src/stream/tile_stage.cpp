@@ -21,12 +21,8 @@ TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, const 
     : plan_(plan), log_(log), coarsens_caps_(may_coarsen_caps(shape, plan.target)) {
     const double share = plan.target.share();
     is_on_ = plan.is_decimating && share * kFreeMargin < 1 - kLeastFreeGain;
-    tile_options_ = {.threshold = kTileThreshold,
-                     .keep_share = std::min(share * kTileMargin, 1.0),
-                     .free_share = share > kFreeFrom ? share * kFreeMargin : 1,
-                     .threads = options.threads,
-                     .in_flight = plan.budget.in_flight,
-                     .simplify = simplify_options(options, shape)};
+    tile_options_ = first_stage(simplify_options(options, shape), share, options.threads);
+    tile_options_.in_flight = plan.budget.in_flight;
 }
 
 Chunk TileStage::run(GatheredStrips& gathered) {

@@ -10,6 +10,11 @@
 
 namespace regionmesh {
 
+/// Bytes of its vertices and faces.
+inline std::size_t bytes_of(const Chunk& chunk) {
+    return chunk.vertices.size() * sizeof(ChunkVertex) + chunk.faces.size() * sizeof(ChunkFace);
+}
+
 /// The whole mesh as a chunk with these active vertices, or the fixed ones. Empties the mesh.
 Chunk take_chunk(Mesh& mesh, std::span<const VertexId> active);
 Chunk take_chunk(Mesh& mesh);

@@ -28,23 +28,15 @@ double side_of_tiles(const TileGrid& grid, double tiles, std::array<bool, 3>& is
 
 /// Walls lie in each pass elsewhere: between those of the first stage where there is a lattice, and at golden sections
 /// of a tile otherwise.
-TileGrid grid_of(const TilePlan& plan, const PassOptions& options, std::uint64_t faces, int pass) {
-    const int sweep = plan.sweep.axes[2];
-    TileGrid grid{.origin = plan.lattice.origin,
-                  .spacing = plan.lattice.spacing,
-                  .size = {},
-                  .cells = {},
-                  .extent = box_of(options.safe, sweep),
-                  .first_cell = plan.first_cell,
-                  .is_bounded = plan.is_bounded};
-    for (int axis = 0; axis < 3; ++axis) grid.size[axis] = plan.lattice.size[axis] - 1;
+TileGrid pass_grid(const TilePlan& plan, const PassOptions& options, std::uint64_t faces, int pass) {
+    TileGrid grid = grid_of(plan, {}, {}, options.safe);
     std::array<bool, 3> is_cut;
     const double side = side_of_tiles(grid, std::max(static_cast<double>(faces) / options.tile_faces, 1.0), is_cut);
     for (int axis = 0; axis < 3; ++axis) {
-        const std::uint32_t step = std::max(axis == sweep ? plan.chunk_strips : plan.tile_cells, 1u);
-        const auto steps = static_cast<std::uint32_t>(std::max(std::round(side / step), 1.0));
-        grid.cells[axis] = is_cut[axis] ? steps * step : std::max(grid.size[axis], 1u);
         if (!is_cut[axis]) continue;
+        const std::uint32_t step = std::max(axis == plan.sweep.axes[2] ? plan.chunk_strips : plan.tile_cells, 1u);
+        const auto steps = static_cast<std::uint32_t>(std::max(std::round(side / step), 1.0));
+        grid.cells[axis] = steps * step;
         const std::uint32_t half = steps == 1 ? step / 2 : steps / 2 * step;
         grid.shift[axis] = (step / 2 + pass % 2 * half + pass / 2 * (step / 3)) % grid.cells[axis];
         if (!plan.is_bounded)
@@ -153,7 +145,7 @@ PassResult simplify_below(Chunk& chunk, const TilePlan& plan, const PassOptions&
         };
         tiles.keep_share = share_of_left(options.tiles.keep_share);
         tiles.free_share = share_of_left(options.tiles.free_share);
-        const TileGrid grid = grid_of(plan, options, chunk.faces.size(), kMostPasses + pass);
+        const TileGrid grid = pass_grid(plan, options, chunk.faces.size(), kMostPasses + pass);
         TiledFaces faces(chunk, {}, grid, tiles.threads);
         TileResult done = simplify_tiles(faces, tiles);
         chunk = std::move(done.left);
@@ -174,7 +166,7 @@ PassResult simplify_in_passes(Chunk& chunk, const TilePlan& plan, const PassOpti
     std::optional<ThresholdSearch> search;
     for (int pass = 0; pass < kMostPasses && is_worth_pass(chunk.faces.size(), options); ++pass) {
         const std::size_t held = chunk.faces.size();
-        const TileGrid grid = grid_of(plan, options, held, pass);
+        const TileGrid grid = pass_grid(plan, options, held, pass);
         TiledFaces faces(chunk, {}, grid, options.tiles.threads);
         TileOptions tiles = options.tiles;
         tiles.faces_in_flight = std::max<std::uint64_t>(held / kPartsInFlight, kFacesInFlight);

@@ -1,6 +1,7 @@
 // The first stage: the tiles of a chunk, before they join the mesh.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -21,6 +22,14 @@ struct TilePlan {
     std::array<std::uint32_t, 3> first_cell{0, 0, 0};  // of a block; the origin is that of the whole volume
 };
 TilePlan plan_tiles(const Lattice& lattice, Sweep sweep);
+
+/// The tiles of a plan with `cells` cells along each axis, the first ones `shift` cells shorter, all within the safe
+/// interval along the sweep. 0 cells: one tile along that axis.
+TileGrid grid_of(const TilePlan& plan, std::array<std::uint32_t, 3> cells, std::array<std::uint32_t, 3> shift = {},
+                 SafeInterval safe = {});
+
+/// Tiles of the first stage, up to its threshold, where the target leaves this share of the faces.
+TileOptions first_stage(const SimplifyOptions& simplify, double share, std::uint32_t threads);
 
 /// Simplifies a chunk tile by tile, up to the threshold of the options. Locked vertices and faces
 /// outside the safe interval stay as they are (TiledFaces); a tile's merged vertices stay strictly inside it, so
