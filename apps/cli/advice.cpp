@@ -139,4 +139,24 @@ void warn_of_grey_scale(const Settings& settings, SectionReader& reader) {
         100 * static_cast<double>(count.alone) / static_cast<double>(count.samples)));
 }
 
+std::string background_text(const Settings& settings, const Reconstruction& made) {
+    if (!made.report.samples || made.report.samples->samples == 0) return {};
+    std::uint64_t samples = 0;
+    std::string labels;
+    std::size_t count = 0;
+    for (const Label label : made.background) {
+        if (label >= made.report.samples->regions.size()) continue;
+        const std::uint64_t own = made.report.samples->regions[label].in_sections;
+        if (own == 0) continue;
+        samples += own;
+        constexpr std::size_t kShown = 5;
+        if (count++ < kShown) labels += (labels.empty() ? "" : ", ") + made.labels.text(made.labels.input(label));
+        if (count == kShown + 1) labels += ", ...";
+    }
+    if (samples == 0) return {};
+    const double share = 100 * static_cast<double>(samples) / static_cast<double>(made.report.samples->samples);
+    return fmt::format("; {:.3g} % of the samples are background, label {} ({})", share, labels,
+                       has_background(settings) ? "as --background says" : "--no-background makes it a region");
+}
+
 }  // namespace regionmesh::cli

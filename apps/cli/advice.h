@@ -30,4 +30,8 @@ void warn_of_units(const std::string& a, const std::optional<double>& metres_a, 
 void warn_of_grey_scale(const Settings& settings, SectionReader& reader);
 inline void warn_of_grey_scale(const Settings&, TetrahedronReader&) {}
 
+/// "; 66.7 % of the samples are background, label 0 (...)": which share, and why. Empty where there is none, or the
+/// samples were not counted.
+std::string background_text(const Settings& settings, const Reconstruction& made);
+
 }  // namespace regionmesh::cli

@@ -77,7 +77,8 @@ std::string files_text(const Settings& settings) {
 }
 
 /// What needs attention first; then three lines: what was made, what was proved, where it lies.
-void print_summary(const Settings& settings, const Report& report) {
+void print_summary(const Settings& settings, const Reconstruction& made) {
+    const Report& report = made.report;
     const CheckReport& check = report.check;
     print_details(report);
     print_smoothed_lines(report);
@@ -88,9 +89,10 @@ void print_summary(const Settings& settings, const Report& report) {
     print_violations(check, 0);
     if (report.samples_in_room > 0)
         say("{} changed the label within --room", counted(report.samples_in_room, "sample"));
-    say("made: {}, {}, {} (from {} faces); quality lowest {:.3f}, mean {:.3f}", counted(check.regions.size(), "region"),
-        counted(report.final_faces, "face"), counted(report.final_vertices, "vertex"), grouped(report.initial_faces),
-        check.quality.min, check.quality.mean);
+    say("made: {}, {}, {} (from {} faces); quality lowest {:.3f}, mean {:.3f}{}",
+        counted(check.regions.size(), "region"), counted(report.final_faces, "face"),
+        counted(report.final_vertices, "vertex"), grouped(report.initial_faces), check.quality.min, check.quality.mean,
+        background_text(settings, made));
     print_certificate(report);
     say("written: {}; {:.2f} s, {} MB of memory", files_text(settings), report.seconds.at("total"),
         grouped(report.peak_bytes / 1000000));
@@ -174,7 +176,7 @@ int run_reconstruct(const Settings& settings) {
     write_report_and_page(kReconstruct, settings, report, model, files);
     files.commit();
     print_region_files(settings, written);
-    print_summary(settings, report);
+    print_summary(settings, made);
     return exit_code(report);
 }
 

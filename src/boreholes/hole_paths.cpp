@@ -46,6 +46,15 @@ public:
         return {};
     }
 
+    /// A number counts from 1; other text is a title in any case.
+    std::optional<std::size_t> titled(std::string_view title) const {
+        if (const auto number = parse_size(title))
+            return *number >= 1 && *number <= titles_.size() ? std::optional(*number - 1) : std::nullopt;
+        for (std::size_t i = 0; i < titles_.size(); ++i)
+            if (lower(titles_[i]) == lower(title)) return i;
+        return {};
+    }
+
     std::size_t require(const char* what, std::initializer_list<Titles> wanted) const {
         if (const auto column = find(wanted)) return *column;
         rows_.refuse(fmt::format("has no column for {}; call one '{}'", what, wanted.begin()->front()));
@@ -96,12 +105,35 @@ struct Collar {
 
 using Collars = std::map<std::string, Collar, std::less<>>;
 
-Collars read_collars(const std::filesystem::path& path, TitleUnit& unit) {
+/// The column that a pair of --columns, "x=LOCA_NATE", names for one of `keys`; none where no pair has such a key.
+std::optional<std::size_t> wanted_column(const NamedColumns& table, std::string_view wanted,
+                                         std::initializer_list<std::string_view> keys) {
+    if (wanted.find('=') == std::string_view::npos) return {};
+    for (const std::string_view pair : split_words(wanted, ",")) {
+        const std::size_t equals = std::min(pair.find('='), pair.size());
+        const std::string key = lower(trim(pair.substr(0, equals)));
+        if (equals == pair.size() || std::ranges::find(keys, key) == keys.end()) continue;
+        const std::string_view title = trim(pair.substr(equals + 1));
+        if (const auto column = table.titled(title)) return column;
+        if (key != "hole")
+            fail(table.rows().path(), fmt::format("has no column '{}' that --columns names for {}; its titles are in "
+                                                  "the first row",
+                                                  shown(title), key));
+    }
+    return {};
+}
+
+Collars read_collars(const std::filesystem::path& path, const std::string& wanted, TitleUnit& unit) {
     NamedColumns table(path);
-    const std::size_t hole = table.require_hole(), x = table.require("x", {titles::kX}),
-                      y = table.require("y", {titles::kY}),
-                      z = table.require("the elevation", {titles::kSurface, titles::kZ});
-    for (const std::size_t column : {x, y, z}) unit.add(table.rows(), table.title(column));
+    const auto column = [&](std::initializer_list<std::string_view> keys, const char* what,
+                            std::initializer_list<Titles> usual) {
+        const auto named = wanted_column(table, wanted, keys);
+        return named ? *named : table.require(what, usual);
+    };
+    const std::size_t hole = column({"hole"}, "the hole", {titles::kHole, titles::kName}),
+                      x = column({"x"}, "x", {titles::kX}), y = column({"y"}, "y", {titles::kY}),
+                      z = column({"surface", "z"}, "the elevation", {titles::kSurface, titles::kZ});
+    for (const std::size_t place : {x, y, z}) unit.add(table.rows(), table.title(place));
     Collars collars;
     while (table.next()) {
         const Collar collar{{table.number(x), table.number(y), table.number(z)}, table.rows().number()};
@@ -211,8 +243,9 @@ Vec3 HolePath::direction_at(double depth) const {
     return between(a.direction, b.direction, (depth - a.depth) / (b.depth - a.depth));
 }
 
-HolePaths read_hole_paths(const std::filesystem::path& collars, const std::filesystem::path& surveys, TitleUnit& unit) {
-    const Collars known = read_collars(collars, unit);
+HolePaths read_hole_paths(const std::filesystem::path& collars, const std::filesystem::path& surveys,
+                          const std::string& columns, TitleUnit& unit) {
+    const Collars known = read_collars(collars, columns, unit);
     Stations stations;
     if (!surveys.empty()) stations = read_stations(surveys, collars, known, unit);
     HolePaths paths;

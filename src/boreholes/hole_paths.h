@@ -39,13 +39,15 @@ private:
 /// The paths of holes by name.
 using HolePaths = std::map<std::string, HolePath, std::less<>>;
 
-/// Reads a table of collars with columns hole, x, y and surface (or z, elevation, collar), and one of stations with
+/// Reads a table of collars with columns hole, x, y and surface (or z, elevation, collar), or those that pairs in
+/// `columns` name, TetrahedraOptions::columns; and one of stations with
 /// columns hole, depth, azimuth (degrees from north to east) and dip (degrees from the horizontal; where most of the
 /// table are negative, negative is down, else positive is) or inclination (degrees from straight down). Holes without
 /// stations, or without a table of stations, are vertical. Throws Error(kInput) naming file and row; also for a dip
 /// outside -90 to 90, an inclination outside 0 to 180, and opposite directions at two stations, between which there is
 /// no one arc. Adds the titles of lengths to `unit`.
-HolePaths read_hole_paths(const std::filesystem::path& collars, const std::filesystem::path& surveys, TitleUnit& unit);
+HolePaths read_hole_paths(const std::filesystem::path& collars, const std::filesystem::path& surveys,
+                          const std::string& columns, TitleUnit& unit);
 
 /// Cuts intervals at stations and puts their ends where the paths lead; before, `from` and `length` are depths along
 /// the hole. Sets the collars and `is_at_collar`. Throws Error(kInput) naming the row of a hole without a collar, or

@@ -97,7 +97,7 @@ void PointTableReader::read_rows() {
     if (holes_.intervals.empty()) fail(rows_.path(), "has no interval with a length; give it other bottoms");
     refuse_overlaps(holes_, labels_);
     if (holes_.is_by_name)
-        place_on_paths(holes_, read_hole_paths(options_.collars, options_.surveys, unit_));
+        place_on_paths(holes_, read_hole_paths(options_.collars, options_.surveys, options_.columns, unit_));
     else
         find_collars(holes_);
 }

@@ -26,6 +26,7 @@ public:
 
 private:
     void take_wanted(const std::string& wanted);
+    bool is_of_collars(const std::string& key, std::string_view column) const;
     void require_own_columns(const std::string& wanted) const;
     std::size_t wanted_column(std::string_view column);
     std::optional<std::size_t> column_like(std::string_view title, std::string (*plain)(std::string_view)) const;
@@ -92,6 +93,7 @@ void ColumnFinder::take_wanted(const std::string& wanted) {
         if (has_pairs) {
             const std::size_t equals = std::min(column.find('='), column.size());
             const std::string key = lower(trim(column.substr(0, equals)));
+            if (has_collars_ && equals < column.size() && is_of_collars(key, trim(column.substr(equals + 1)))) continue;
             role = static_cast<std::size_t>(std::find(kRoleNames.begin(), kRoleNames.end(), key) - kRoleNames.begin());
             if (equals == column.size() || role == kRoleNames.size() || found_.places[role])
                 refuse_option(
@@ -103,6 +105,12 @@ void ColumnFinder::take_wanted(const std::string& wanted) {
         found_.places[role] = wanted_column(trim(column));
     }
     require_own_columns(wanted);
+}
+
+/// With a table of collars, the place of a hole stands there, and its name in both.
+bool ColumnFinder::is_of_collars(const std::string& key, std::string_view column) const {
+    if (key == "x" || key == "y" || key == "z" || key == "surface") return true;
+    return key == "hole" && !parse_size(column) && !column_like(column, lower);
 }
 
 /// A label may be taken from any column, a coordinate has one of its own.

@@ -70,16 +70,19 @@ constexpr auto write_two_in_part() {
 
 constexpr const char* kStoreInFile =
     "stores in one file are not read; unpack it into a directory (unzip) and name that";
-constexpr const char* kPair = "NIfTI pairs (.hdr and .img) are not read; join them into one .nii file";
 
 constexpr Format kFormats[] = {
     {.name = "NPY", .extensions = {".npy"}, .open_sections = open_npy},
     {.name = "NIfTI", .extensions = {".nii", ".nii.gz"}, .open_sections = open_nifti},
-    {.name = "NIfTI pair", .extensions = {".hdr", ".img", ".hdr.gz", ".img.gz"}, .refusal = kPair},
+    {.name = "NIfTI pair", .extensions = {".hdr", ".img", ".hdr.gz", ".img.gz"}, .open_sections = open_nifti},
     {.name = "NRRD", .extensions = {".nrrd", ".nhdr"}, .open_sections = open_nrrd},
     {.name = "MetaImage", .extensions = {".mha", ".mhd"}, .open_sections = open_meta_image},
     {.name = "VTI", .extensions = {".vti"}, .open_sections = open_vti},
     {.name = "INR", .extensions = {".inr", ".inr.gz"}, .open_sections = open_inr},
+    {.name = "NPZ", .extensions = {".npz"}, .open_sections = open_npz},
+    {.name = "Amira", .extensions = {".am"}, .open_sections = open_amira},
+    {.name = "MRC", .extensions = {".mrc", ".map", ".rec", ".ccp4", ".mrc.gz", ".map.gz"}, .open_sections = open_mrc},
+    {.name = "VTK", .extensions = {".vtk"}, .open_sections = open_legacy_vtk},
     {.name = "FreeSurfer", .extensions = {".mgz", ".mgh"}, .open_sections = open_mgh},
     {.name = "TIFF",
      .extensions = {".tif", ".tiff"},
@@ -140,6 +143,7 @@ constexpr Format kFormats[] = {
      .has_point_arrays = true},
     {.name = "VTU",
      .extensions = {".vtu"},
+     .open_sections = open_vtu_voxels,
      .open_tetrahedra = open_vtu,
      .read_surface = read_vtu,
      .write_surface = write_with_arrays<write_vtu>,

@@ -1,9 +1,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "formats/array/volume_formats.h"
 #include "regionmesh/error.h"
 #include "regionmesh/options.h"
+#include "volume/chosen_sections.h"
 
 namespace regionmesh {
 namespace {
@@ -86,12 +89,15 @@ bool is_lattice(const Settings& settings, const std::vector<std::string>& inputs
 std::unique_ptr<SectionReader> open_lattice(const Settings& settings, const std::vector<std::string>& inputs) {
     if (kind_of_input(inputs) != kVolumeInput)
         return open_layers(inputs.front(), settings.tetrahedra, layer_options(settings));
-    return open_sections({inputs.begin(), inputs.end()}, settings.volume);
+    auto sections = open_sections({inputs.begin(), inputs.end()}, settings.volume);
+    const bool is_in_blocks = settings.block_cells || settings.output.ends_with('/');
+    return is_in_blocks ? std::move(sections) : as_plate(std::move(sections));
 }
 
 InputKind kind_of_input(const std::vector<std::string>& inputs) {
     const auto found = std::ranges::find_if(inputs, [](const auto& input) { return holds_tetrahedra(input); });
     if (found == inputs.end()) return kVolumeInput;
+    if (inputs.size() == 1 && formats::holds_voxels(*found)) return kVolumeInput;
     return is_mesh(*found) ? kMeshInput : kTableInput;
 }
 

@@ -19,6 +19,9 @@ ReaderPointer crop_sections(ReaderPointer reader, const IndexBox& box);
 /// Labels replaced by `new_label(old)`, which is called once for each label.
 ReaderPointer relabel_sections(ReaderPointer reader, std::function<InputLabel(InputLabel)> new_label);
 
+/// A volume with one sample along one axis, repeated along it: a plate, one spacing thick. Others as they are.
+ReaderPointer as_plate(ReaderPointer reader);
+
 /// The lattice in another space: turned about z where the volume says that it is in the other one.
 ReaderPointer turn_sections(ReaderPointer reader, Space space);
 

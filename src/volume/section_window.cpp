@@ -11,8 +11,8 @@ void require_cells(const VolumeInfo& info) {
         if (info.lattice.size[axis] < 2)
             throw Error(ErrorCode::kInput, info.source + ": " + std::to_string(info.lattice.size[axis]) +
                                                " sample along " + "xyz"[axis] +
-                                               "; a cell needs two. Give a volume, or repeat the section: two equal "
-                                               "sections make a plate, one spacing thick");
+                                               "; a cell needs two. Two equal sections make a plate, one spacing "
+                                               "thick");
 }
 
 void require_section(bool is_there, const VolumeInfo& info, std::uint32_t section) {

@@ -138,9 +138,10 @@ TEST_F(Usage, an_input_without_a_region_is_refused) {
                    "it has one label only");
 }
 
-TEST_F(Usage, one_section_is_refused_with_what_to_do) {
-    expect_refusal("reconstruct " + path("ball.raw").string() + " --size 9,81,1 --type uint8" + to_model(), 1,
-                   "repeat the section");
+TEST_F(Usage, one_section_is_a_plate) {
+    const Ran ran = run("reconstruct " + path("ball.raw").string() + " --size 9,81,1 --type uint8" + to_model());
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    EXPECT_THAT(ran.error, HasSubstr("it has one sample along z, and is repeated: the model is a plate"));
 }
 
 TEST_F(Usage, unknown_commands_and_options_are_answered_with_the_nearest) {

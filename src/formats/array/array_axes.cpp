@@ -37,11 +37,19 @@ std::vector<int> drop_single(const std::vector<std::uint64_t>& shape) {
     return kept;
 }
 
+/// Of four axes without names, that which is not in space: the last if it is one of channels, else the first.
+int outer_axis(const std::vector<int>& kept, const std::vector<std::uint64_t>& shape) {
+    const std::uint64_t last = shape[kept.back()];
+    const bool is_shortest = std::all_of(kept.begin(), kept.end() - 1, [&](int axis) { return last < shape[axis]; });
+    return is_shortest ? kept.back() : kept.front();
+}
+
 ArrayAxes unnamed_axes(const std::filesystem::path& source, const std::vector<std::uint64_t>& shape) {
-    const std::vector<int> kept = drop_single(shape);
+    std::vector<int> kept = drop_single(shape);
+    if (kept.size() == 4) std::erase(kept, outer_axis(kept, shape));
     if (kept.size() < 2 || kept.size() > 3) {
         fail(source, "the array has " + std::to_string(shape.size()) + " dimensions (" + shape_text(shape) +
-                         ") without names for them; save one of shape (z, y, x)");
+                         ") without names for them; save one of shape (z, y, x), or (channel, z, y, x)");
     }
     ArrayAxes axes;
     for (std::size_t i = 0; i < kept.size(); ++i) axes.axis[i] = kept[kept.size() - 1 - i];
@@ -83,7 +91,8 @@ std::array<std::uint64_t, 3> ArrayAxes::along(const std::vector<std::uint64_t>& 
 
 ReadOptions ArrayAxes::without_layer(const ReadOptions& options) const {
     ReadOptions rest = options;
-    if (has_layers) rest.layer.reset();
+    if (!has_layers) return rest;
+    rest.layer.reset();
     return rest;
 }
 
@@ -96,8 +105,9 @@ ArrayAxes choose_axes(const std::filesystem::path& source, const std::vector<std
     axes.index.assign(shape.size(), 0);
     for (std::size_t i = 0; i < shape.size(); ++i) {
         if (std::ranges::count(axes.axis, static_cast<int>(i)) > 0 || shape[i] == 1) continue;
-        const std::string what = (names[i].empty() ? "axis " + std::to_string(i) : "axis '" + names[i] + "'") +
-                                 " has " + std::to_string(shape[i]) + " samples";
+        const std::string what =
+            (i >= names.size() || names[i].empty() ? "axis " + std::to_string(i) : "axis '" + names[i] + "'") +
+            " has " + std::to_string(shape[i]) + " samples";
         if (shape[i] == 0) fail(source, what + "; give a volume that has some");
         if (axes.has_layers) fail(source, what + "; another axis has more than one, too: save one volume");
         if (!options.layer) fail(source, what + "; choose one with --layer 0 to " + std::to_string(shape[i] - 1));

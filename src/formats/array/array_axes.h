@@ -17,9 +17,9 @@ namespace regionmesh::formats {
 struct ArrayAxes {
     std::array<int, 3> axis{-1, -1, -1};  // the axes of the array that are x, y and z; -1: none, with one sample
     std::vector<std::uint64_t> index;     // of the volume along the other axes
-    bool has_layers = false;              // options.layer chose one of these indices
+    bool has_layers = false;              // the options chose one of these indices
 
-    /// The options without the layer, if it was used to choose an index.
+    /// The options without those that were used to choose an index.
     ReadOptions without_layer(const ReadOptions& options) const;
 
     /// Of a number for each axis of the array, those along x, y, z; `otherwise` where there is no such axis.
@@ -28,8 +28,9 @@ struct ArrayAxes {
 
 /// Axes named x, y and z are those; others are channels, times and the like, or what is missing of x and y. Without
 /// names the last three axes are z, y, x; if there are more than three, axes of one sample are dropped: at the end,
-/// then at the start, then between. An axis other than x, y, z with more than one sample needs options.layer; two are
-/// refused. Errors name the axis.
+/// then at the start, then between; if there are still four, the last is one of channels if it has fewer samples than
+/// all others, else the first is one of volumes. An axis other than x, y, z with more than one sample needs
+/// options.layer; two are refused. Errors name the axis.
 ArrayAxes choose_axes(const std::filesystem::path& source, const std::vector<std::uint64_t>& shape,
                       const std::vector<std::string>& names, const ReadOptions& options);
 

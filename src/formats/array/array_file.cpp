@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/add_warning.h"
 #include "formats/array/flat_reader.h"
 #include "formats/array/stream_reader.h"
 #include "formats/array/volume_size.h"
@@ -53,7 +54,7 @@ void check_present(const ArrayFile& array, const InputFile& file, std::uint64_t 
     }
     const bool is_ascii = array.encoding == Encoding::kAscii;
     const std::uint64_t most = is_ascii ? most_ascii_samples(present) : present;
-    if (most >= (is_ascii ? needed / sample_bytes(kAsciiFormat.type) : needed)) return;
+    if (most >= (is_ascii ? needed / kAsciiBytes : needed)) return;
     fail(file.path(), fmt::format("has {} bytes of samples, fewer than the header says; {}", present,
                                   array.files.size() > 1 ? "it is truncated, or the header names too few files"
                                                          : "it is truncated, fetch it again"));
@@ -63,13 +64,13 @@ StreamPart part_of(const ArrayFile& array, const fs::path& path, std::uint64_t n
     const InputFile file(path);
     const std::uint64_t begin = samples_begin(array, file, needed);
     check_present(array, file, begin, needed);
-    return {[path, begin, needed, encoding = array.encoding, type = array.sample.type,
-             skip = array.skipped_bytes]() -> std::unique_ptr<ByteStream> {
+    return {[path, begin, needed, encoding = array.encoding, sample = array.sample, end = array.end,
+             is_bare = array.is_bare, skip = array.skipped_bytes]() -> std::unique_ptr<ByteStream> {
                 if (encoding == Encoding::kRaw) return std::make_unique<PlainStream>(InputFile(path), begin);
                 if (encoding == Encoding::kAscii)
-                    return std::make_unique<AsciiStream>(InputFile(path), type,
-                                                         needed / sample_bytes(kAsciiFormat.type), begin);
-                auto stream = std::make_unique<DeflateStream>(InputFile(path), begin);
+                    return std::make_unique<AsciiStream>(InputFile(path), sample, needed / kAsciiBytes, begin, end);
+                auto stream =
+                    std::make_unique<DeflateStream>(std::make_unique<PlainStream>(InputFile(path), begin), is_bare);
                 stream->skip(static_cast<std::uint64_t>(skip));  // if it cannot, the first read reports why
                 return stream;
             },
@@ -124,16 +125,43 @@ void take_table_beside(ArrayFile& array) {
     NamesAndColours table = table_beside(array.source);
     array.names = std::move(table.names);
     array.colours = std::move(table.colours);
-    array.warning = std::move(table.warning);
+    add_warning(array.warning, table.warning);
 }
 
-std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOptions& options) {
+void choose_block(const std::vector<BlockAxis>& axes, const ReadOptions& options, ArrayFile& array) {
+    constexpr std::uint64_t kMostBlocks = std::uint64_t{1} << 31;
+    const auto several = std::ranges::count_if(axes, [](const BlockAxis& axis) { return axis.size > 1; });
+    std::uint64_t blocks = 1, block = 0;
+    for (const BlockAxis& axis : axes) {
+        if (axis.size == 0) fail(array.source, axis.name + " is 0; give a file with samples");
+        if (axis.size > kMostBlocks / blocks) fail(array.source, "holds more than 2^31 volumes; check the header");
+        if (axis.size == 1) continue;
+        if (several > 1)
+            fail(array.source, fmt::format("holds volumes along several axes ({} of {}); save those along one of them",
+                                           axis.size, axis.name));
+        if (!options.layer)
+            fail(array.source, fmt::format("holds {} volumes ({}); choose one with --layer 0 to {}", axis.size,
+                                           axis.name, axis.size - 1));
+        if (*options.layer >= axis.size)
+            fail(array.source,
+                 fmt::format("holds volumes 0 to {} ({}); there is no {}", axis.size - 1, axis.name, *options.layer));
+        block += *options.layer * blocks;
+        blocks *= axis.size;
+    }
+    array.blocks = static_cast<std::uint32_t>(blocks);
+    array.block = static_cast<std::uint32_t>(block);
+}
+
+std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOptions& given) {
+    const bool has_chosen = array.blocks > 1 || array.components > 1;
+    const ReadOptions options = has_chosen ? without_choice(given) : given;
     const std::vector<fs::path> files = array.files.empty() ? std::vector{array.source} : array.files;
     if (!options.external_files) require_files_within(array);
     for (const fs::path& file : array.files) require_present(array.source, file);
-    const SampleFormat format = array.encoding == Encoding::kAscii ? kAsciiFormat : array.sample;
+    SampleFormat format = array.sample;
+    if (array.encoding == Encoding::kAscii) format = ascii_format(array.sample);
     const auto& size = array.lattice.size;
-    const std::uint64_t sample = sample_bytes(format.type) * array.components;
+    const std::uint64_t sample = sample_bytes(format) * array.components;
     const std::uint64_t volume = volume_bytes(array.source, size, sample);
     if (volume > std::numeric_limits<std::int64_t>::max() / array.blocks)
         fail(array.source, "describes more samples than any file holds; check the header");
@@ -144,7 +172,7 @@ std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOpti
         fail(array.source, fmt::format("names {} files for {} samples; each must hold the same number", files.size(),
                                        size_text({size[0], size[1], size[2]})));
     }
-    VolumeInfo info = volume_info(array.source, array.format, array.sample.type, size);
+    VolumeInfo info = volume_info(array.source, array.format, label_type(array.sample), size);
     info.lattice = array.lattice;
     info.space = array.space;
     info.metres = array.metres;

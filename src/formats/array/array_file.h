@@ -24,9 +24,11 @@ struct ArrayFile {
     std::filesystem::path source = {};              // the file that the user named, for messages
     std::vector<std::filesystem::path> files = {};  // of samples, in order, of one size; none: `source`
     Encoding encoding = Encoding::kRaw;
+    bool is_bare = false;  // deflated without the wrapper of gzip or zlib
     SampleFormat sample = {};
     Lattice lattice = {};               // shape along x, y, z, and the affine map
     std::array<int, 3> order{0, 1, 2};  // axes, the fastest first; raw samples in one file may have another order
+    std::uint64_t end = UINT64_MAX;     // of samples as text, in the file
     std::uint64_t begin = 0;            // bytes to skip at the start of every file,
     std::uint64_t skipped_lines = 0;    // then lines to skip,
     std::int64_t skipped_bytes = 0;     // then bytes, counted after inflation; -1: the samples end the file
@@ -45,8 +47,19 @@ struct ArrayFile {
 
 inline constexpr std::uint64_t kMostLayers = 4096;
 
+/// An axis along which whole volumes follow one another.
+struct BlockAxis {
+    std::string name;  // in messages
+    std::uint64_t size = 1;
+};
+
+/// Sets `blocks` and `block` of the array from its axes beyond the third, of which one may have more than one sample.
+/// Throws where that needs options.layer, and where it is out of range.
+void choose_block(const std::vector<BlockAxis>& axes, const ReadOptions& options, ArrayFile& array);
+
 /// Raw samples in one file can be swept along any axis, unless can_sweep_all is false; all others along z. Requires a
-/// lattice size from checked_size. Throws Error(kInput) where a file is missing or too short for the header.
+/// lattice size from checked_size. The layer of the options stands for the block or component that was chosen. Throws
+/// Error(kInput) where a file is missing or too short for the header.
 std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOptions& options);
 
 /// The bytes of a file from its start, inflated if it is gzipped, whatever its name. `encoding` becomes kDeflated then.

@@ -23,14 +23,15 @@ public:
 private:
     void read_section(std::uint32_t number, std::span<InputLabel> section) override {
         if (number < first_ || number - first_ >= held_) load(number);
-        decode_samples(samples_.data() + (number - first_) * section_bytes_, sample_bytes(layout_.format.type),
-                       layout_.format, section);
+        require_labels(decode_samples(samples_.data() + (number - first_) * section_bytes_,
+                                      sample_bytes(layout_.format), layout_.format, section),
+                       number, 0, box_.low);
     }
 
     void plan_blocks() override {
         held_ = 0;
         const int swept = info_.sweep.axes[2];
-        section_bytes_ = std::uint64_t{section_width()} * section_height() * sample_bytes(layout_.format.type);
+        section_bytes_ = std::uint64_t{section_width()} * section_height() * sample_bytes(layout_.format);
         chunk_ = std::clamp<std::uint64_t>(layout_.chunk[swept], 1, box_.high[swept]);
         depth_ = chunk_ * std::max<std::uint64_t>(1, kFewBytes / section_bytes_ / chunk_);
         const std::uint64_t most = layout_.is_backed ? kMaxBlockBytes : kMaxBareBytes;
@@ -75,7 +76,7 @@ std::unique_ptr<SectionReader> open_blocks(std::unique_ptr<BlockSource> source, 
     const std::uint64_t samples = volume_bytes(info.source, size, 1);
     for (const int axis : {0, 1}) {
         const std::uint64_t deep = std::min<std::uint64_t>(layout.chunk[axis], size[axis]);
-        info.can_sweep[axis] = samples / size[axis] <= kCrossBytes / sample_bytes(layout.format.type) / deep;
+        info.can_sweep[axis] = samples / size[axis] <= kCrossBytes / sample_bytes(layout.format) / deep;
     }
     apply_options(info, options, "give --sweep z, or store it in chunks that are less deep");
     return std::make_unique<BlockReader>(std::move(source), std::move(info), layout);

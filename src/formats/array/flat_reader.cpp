@@ -28,7 +28,7 @@ public:
         : CroppedSections(std::move(info)),
           file_(std::move(file)),
           layout_(layout),
-          bytes_(sample_bytes(layout.format.type)),
+          bytes_(sample_bytes(layout.format)),
           file_size_(info_.lattice.size) {
         plan_blocks();
     }
@@ -40,8 +40,9 @@ private:
         const std::byte* corner = block_.data() + (number - block_first_) * pitch[info_.sweep.axes[2]];
         const std::size_t width = section_width();
         for (std::size_t row = 0; row < section_height(); ++row) {
-            decode_samples(corner + row * pitch[info_.sweep.axes[1]], pitch[info_.sweep.axes[0]], layout_.format,
-                           section.subspan(row * width, width));
+            require_labels(decode_samples(corner + row * pitch[info_.sweep.axes[1]], pitch[info_.sweep.axes[0]],
+                                          layout_.format, section.subspan(row * width, width)),
+                           number, row * width, box_.low);
         }
     }
 
@@ -142,7 +143,7 @@ private:
 };
 
 void check_length(const InputFile& file, const VolumeInfo& info, const FlatLayout& layout) {
-    const std::uint64_t needed = volume_bytes(file.path(), info.lattice.size, sample_bytes(layout.format.type));
+    const std::uint64_t needed = volume_bytes(file.path(), info.lattice.size, sample_bytes(layout.format));
     const std::uint64_t present = file.size() < layout.offset ? 0 : file.size() - layout.offset;
     if (present >= needed) return;
     const std::string text = "the file holds " + std::to_string(present) + " bytes of samples where its header says " +

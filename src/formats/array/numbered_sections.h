@@ -1,9 +1,15 @@
 // The part that all section readers of volumes share.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cassert>
+#include <optional>
 #include <utility>
 
+#include "formats/codec/sample_format.h"
+#include "formats/input_file.h"
 #include "regionmesh/section_reader.h"
 
 namespace regionmesh::formats {
@@ -25,6 +31,21 @@ public:
 
 protected:
     explicit NumberedSections(VolumeInfo info) : info_(std::move(info)) {}
+
+    /// Throws where a sample of the section is no label: that at `first` plus its index, `low` samples from the first
+    /// of the file.
+    void require_labels(const std::optional<NoLabel>& problem, std::uint32_t section, std::size_t first = 0,
+                        const std::array<std::uint32_t, 3>& low = {}) const {
+        if (!problem) return;
+        const std::size_t at = first + problem->index;
+        const auto& axes = info_.sweep.axes;
+        std::array<std::uint64_t, 3> index{low[0], low[1], low[2]};
+        index[axes[0]] += at % section_width();
+        index[axes[1]] += at / section_width();
+        index[axes[2]] += section;
+        fail_section(info_.source, index[axes[2]],
+                     fmt::format("sample ({}, {}, {}) {}", index[0], index[1], index[2], why_no_label(problem->value)));
+    }
 
     VolumeInfo info_;
 

@@ -51,10 +51,15 @@ HeaderFields parse_fields(const fs::path& path, std::string_view text) {
 SampleFormat sample_format(const HeaderFields& fields) {
     SampleFormat format;
     const std::string kind = lower(fields.text({"TYPE"}));
-    if (kind != "unsigned fixed" && kind != "signed fixed")
+    const bool is_real = kind == "float";
+    if (!is_real && kind != "unsigned fixed" && kind != "signed fixed")
         fields.refuse("TYPE", "labels must be integers ('unsigned fixed' or 'signed fixed'): convert them");
     const auto bits = split_words(fields.text({"PIXSIZE"}));
-    const auto type = parse_sample_type((kind[0] == 'u' ? "uint" : "int") + std::string(bits.empty() ? "" : bits[0]));
+    const std::string_view size = bits.empty() ? "" : bits[0];
+    if (is_real && size != "32" && size != "64") fields.refuse("PIXSIZE", "32 or 64 bits are needed");
+    if (is_real) format = real_format(size == "32" ? NumberType::kFloat32 : NumberType::kFloat64, false);
+    const auto type =
+        is_real ? SampleType::kI64 : parse_sample_type((kind[0] == 'u' ? "uint" : "int") + std::string(size));
     if (!type) fields.refuse("PIXSIZE", "8, 16, 32 or 64 bits are needed");
     format.type = *type;
     if (fields.text({"SCALE"}, "2**0") != "2**0")

@@ -70,25 +70,43 @@ MetaHeader read_header(const InputFile& file) {
 
 SampleFormat sample_format(const HeaderFields& header) {
     const std::string_view word = header.text({"ElementType"});
+    const bool is_big_endian = header.flag({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}, false);
+    if (word == "MET_FLOAT") return real_format(NumberType::kFloat32, is_big_endian);
+    if (word == "MET_DOUBLE") return real_format(NumberType::kFloat64, is_big_endian);
     const auto found =
         std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& entry) { return entry.first == word; });
     if (found == kTypes.end()) header.refuse("ElementType", "labels must be integers: convert them, to MET_INT say");
-    return {found->second, header.flag({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}, false)};
+    return {found->second, is_big_endian};
 }
 
-/// Axes beyond the third may have one sample.
-std::array<std::uint64_t, 3> volume_size(const HeaderFields& header, std::size_t dimension) {
-    const std::string_view words = header.text({"DimSize"});
-    const auto sizes = parse_sizes(words);
+std::vector<std::uint64_t> axis_sizes(const HeaderFields& header, std::size_t dimension) {
+    auto sizes = parse_sizes(header.text({"DimSize"}));
     if (!sizes || sizes->size() != dimension) header.refuse("DimSize", "a count for each axis is needed");
-    std::array<std::uint64_t, 3> size{1, 1, 1};
-    for (std::size_t axis = 0; axis < dimension; ++axis) {
-        if (axis < 3)
-            size[axis] = (*sizes)[axis];
-        else if ((*sizes)[axis] != 1)
-            header.refuse("DimSize", "holds several volumes; save one of them alone");
+    sizes->resize(std::max<std::size_t>(dimension, 3), 1);
+    return *sizes;
+}
+
+/// Channels are the values of one sample.
+void choose_volume(const std::vector<std::uint64_t>& sizes, std::int64_t channels, const ReadOptions& options,
+                   ArrayFile& array) {
+    std::vector<BlockAxis> axes;
+    for (std::size_t axis = 3; axis < sizes.size(); ++axis)
+        axes.push_back({fmt::format("axis {} of DimSize", axis + 1), sizes[axis]});
+    if (channels > 1) {
+        const bool is_alone = std::all_of(sizes.begin() + 3, sizes.end(), [](std::uint64_t size) { return size == 1; });
+        if (!is_alone) fail(array.source, "has several channels at several times; save one volume of one channel");
+        if (channels > static_cast<std::int64_t>(kMostLayers))
+            fail(array.source, fmt::format("has {} channels a sample, more than {}", channels, kMostLayers));
+        if (!options.layer)
+            fail(array.source,
+                 fmt::format("has {} channels a sample; choose one with --layer 0 to {}", channels, channels - 1));
+        if (*options.layer >= channels)
+            fail(array.source, fmt::format("has channels 0 to {}; there is no {}", channels - 1, *options.layer));
+        array.components = static_cast<std::uint32_t>(channels);
+        array.component = *options.layer;
+        return;
     }
-    return size;
+    choose_block(axes, options, array);
 }
 
 /// Rows of TransformMatrix are the directions of the axes.
@@ -138,11 +156,13 @@ std::unique_ptr<SectionReader> open_meta_image(const fs::path& path, const ReadO
     const MetaHeader header = read_header(InputFile(path));
     const HeaderFields& fields = header.fields;
     ArrayFile array{.format = "metaimage", .source = path, .sample = sample_format(fields)};
-    if (const std::int64_t channels = fields.integer("ElementNumberOfChannels", 1); channels != 1)
-        fail(path, fmt::format("has {} channels a sample; labels have one: save one channel alone", channels));
+    const std::int64_t channels = fields.integer("ElementNumberOfChannels", 1);
+    if (channels < 1) fields.refuse("ElementNumberOfChannels", "one or more are needed");
     const std::int64_t dimension = fields.integer("NDims", 3);
     if (dimension < 2 || dimension > 10) fail(path, fmt::format("has {} axes (NDims); a volume has three", dimension));
-    array.lattice.size = checked_size(path, volume_size(fields, static_cast<std::size_t>(dimension)));
+    const auto sizes = axis_sizes(fields, static_cast<std::size_t>(dimension));
+    array.lattice.size = checked_size(path, {sizes[0], sizes[1], sizes[2]});
+    choose_volume(sizes, channels, options, array);
     place_in_space(fields, static_cast<std::size_t>(dimension), array.lattice);
     array.space = Space::kLps;  // as ITK, which made the format, reads and writes it
     set_files(header, array);

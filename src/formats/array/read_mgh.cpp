@@ -30,8 +30,6 @@ public:
     }
 
     std::array<std::uint32_t, 3> size() const {
-        const std::int64_t frames = integer(kFrames);
-        if (frames != 1) fail(path_, "holds " + std::to_string(frames) + " frames; save one of them alone");
         std::array<std::uint64_t, 3> size;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::int64_t count = integer(kSizes + 4 * axis);
@@ -41,14 +39,22 @@ public:
         return checked_size(path_, size);
     }
 
-    SampleType type() const {
+    std::uint64_t frames() const {
+        const std::int64_t frames = integer(kFrames);
+        if (frames < 1) fail(path_, "holds " + std::to_string(frames) + " frames; the header is damaged");
+        return static_cast<std::uint64_t>(frames);
+    }
+
+    SampleFormat format() const {
         const std::int64_t type = integer(kType);
+        constexpr int kReal = 3;
+        if (type == kReal) return real_format(NumberType::kFloat32, true);
         constexpr std::array<std::pair<int, SampleType>, 4> kIntegers{
             {{0, SampleType::kU8}, {1, SampleType::kI32}, {4, SampleType::kI16}, {10, SampleType::kU16}}};
         for (const auto& [code, found] : kIntegers)
-            if (code == type) return found;
-        fail(path_, std::string("samples are ") + (type == 3 ? "float32" : "of a type that is not read") + " (type " +
-                        std::to_string(type) + "); labels must be integers: mri_convert -odt int makes them");
+            if (code == type) return {found, true};
+        fail(path_, "samples are of a type that is not read (type " + std::to_string(type) +
+                        "); labels must be integers: mri_convert -odt int makes them");
     }
 
     /// Columns lead from the middle of the volume; without a place in the header FreeSurfer takes coronal sections.
@@ -87,8 +93,9 @@ std::unique_ptr<SectionReader> open_mgh(const std::filesystem::path& path, const
     ArrayFile array{.format = "mgh", .source = path, .remedy = "decompress the file first (mri_convert a.mgz a.mgh)"};
     const std::vector<std::byte> bytes = read_header(path, array.encoding, kHeaderBytes, kHeaderBytes);
     const Header header(path, bytes);
-    array.sample = {header.type(), true};
+    array.sample = header.format();
     array.lattice.size = header.size();
+    choose_block({{"frames", header.frames()}}, options, array);
     header.place(options, array.lattice);
     array.space = Space::kRas;
     array.metres = 1e-3;  // as the format has it

@@ -1,18 +1,26 @@
 // NIfTI-1 and NIfTI-2 files: https://nifti.nimh.nih.gov (nifti1.h, nifti2.h).
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/add_warning.h"
 #include "formats/array/affine.h"
 #include "formats/array/array_file.h"
 #include "formats/array/volume_formats.h"
 #include "formats/array/volume_size.h"
+#include "formats/codec/deflate_stream.h"
 #include "formats/codec/numbers.h"
 #include "formats/input_file.h"
+#include "formats/registry.h"
 #include "regionmesh/label_names_file.h"
 
 namespace regionmesh::formats {
@@ -40,6 +48,7 @@ struct Header {
     std::span<const std::byte> bytes;
     std::size_t size;
     bool is_big_endian;
+    bool is_analyze = false;  // Analyze 7.5: sizes, type and spacings lie where NIfTI has them, and no place in space
 
     bool is_first() const { return size == kNifti1HeaderBytes; }
 
@@ -63,9 +72,7 @@ constexpr std::array<std::pair<int, SampleType>, 8> kIntegers{{{2, SampleType::k
                                                                {768, SampleType::kU32},
                                                                {1024, SampleType::kI64},
                                                                {1280, SampleType::kU64}}};
-constexpr std::array<std::pair<int, const char*>, 9> kNoLabels{{{1, "single bits"},
-                                                                {16, "float32"},
-                                                                {64, "float64"},
+constexpr std::array<std::pair<int, const char*>, 7> kNoLabels{{{1, "single bits"},
                                                                 {1536, "float128"},
                                                                 {32, "complex64"},
                                                                 {1792, "complex128"},
@@ -73,9 +80,12 @@ constexpr std::array<std::pair<int, const char*>, 9> kNoLabels{{{1, "single bits
                                                                 {128, "RGB colours"},
                                                                 {2304, "RGBA colours"}}};
 
-SampleType sample_type(const std::filesystem::path& path, std::int64_t datatype) {
+SampleFormat stored_format(const std::filesystem::path& path, std::int64_t datatype, bool is_big_endian) {
+    constexpr int kSingle = 16, kDouble = 64;
+    if (datatype == kSingle) return real_format(NumberType::kFloat32, is_big_endian);
+    if (datatype == kDouble) return real_format(NumberType::kFloat64, is_big_endian);
     for (const auto& [code, type] : kIntegers) {
-        if (code == datatype) return type;
+        if (code == datatype) return {type, is_big_endian};
     }
     std::string what = "of a type that is not read";
     for (const auto& [code, name] : kNoLabels) {
@@ -85,21 +95,25 @@ SampleType sample_type(const std::filesystem::path& path, std::int64_t datatype)
                    "); labels must be integers: convert them, to int32 say");
 }
 
-std::array<std::uint32_t, 3> volume_size(const std::filesystem::path& path, const Header& header) {
+/// The samples along each of the seven axes.
+std::array<std::uint64_t, 7> axis_sizes(const std::filesystem::path& path, const Header& header) {
     const std::int64_t rank = header.at(kDim);
     if (rank < 2 || rank > 7)
         fail(path, "the header has " + std::to_string(rank) + " dimensions (dim[0]); a volume has three");
-    std::array<std::uint64_t, 3> size{1, 1, 1};
+    std::array<std::uint64_t, 7> size{1, 1, 1, 1, 1, 1, 1};
     for (std::size_t axis = 1; axis <= static_cast<std::size_t>(rank); ++axis) {
         const std::int64_t count = header.at(kDim, axis);
-        const std::string name = "dim[" + std::to_string(axis) + "]";
-        if (count < 0) fail(path, name + " is " + std::to_string(count) + "; the header is damaged");
-        if (axis <= 3)
-            size[axis - 1] = static_cast<std::uint64_t>(count);
-        else if (count > 1)
-            fail(path, "holds " + std::to_string(count) + " volumes (" + name + "); save one of them alone");
+        if (count < 0) fail(path, fmt::format("dim[{}] is {}; the header is damaged", axis, count));
+        size[axis - 1] = axis <= 3 ? static_cast<std::uint64_t>(count) : std::max<std::uint64_t>(count, 1);
     }
-    return checked_size(path, size);
+    return size;
+}
+
+void choose_volume(const std::array<std::uint64_t, 7>& size, const ReadOptions& options, ArrayFile& array) {
+    std::vector<BlockAxis> axes;
+    for (std::size_t axis = 3; axis < size.size(); ++axis)
+        axes.push_back({fmt::format("dim[{}]", axis + 1), size[axis]});
+    choose_block(axes, options, array);
 }
 
 /// nifti1.h, method 2: the rotation of the unit quaternion (a, b, c, d), and qfac for a left-handed third axis.
@@ -148,6 +162,28 @@ void read_affine(const std::filesystem::path& path, const Header& header, const 
     }
 }
 
+/// A file may say twice where its samples lie, and the two may differ: by a mirror, say.
+std::string warning_of_two_maps(const std::filesystem::path& path, const Header& header) {
+    if (header.at(kSformCode) <= 0 || header.at(kQformCode) <= 0) return {};
+    const Vec3 pixdim = header.vector(kPixdim, 1);
+    if (!(pixdim.x > 0 && pixdim.y > 0 && pixdim.z > 0 && std::isfinite(pixdim.x + pixdim.y + pixdim.z))) return {};
+    const Columns qform = qform_columns(header, zooms(path, header, {}));
+    const Columns sform{header.vector(kSrow, 0, 4), header.vector(kSrow, 1, 4), header.vector(kSrow, 2, 4)};
+    const auto volume = [](const Columns& columns) { return dot(columns[0], cross(columns[1], columns[2])); };
+    constexpr double kRounding = 0.01;  // of a spacing
+    double off = length(header.vector(kQoffset) - header.vector(kSrow, 3, 4)) /
+                 std::min({length(qform[0]), length(qform[1]), length(qform[2])});
+    for (int axis = 0; axis < 3; ++axis) {
+        const double samples = std::max(static_cast<double>(header.at(kDim, static_cast<std::size_t>(axis) + 1)), 1.0);
+        off = std::max(off, samples * length(qform[axis] - sform[axis]) / length(qform[axis]));
+    }
+    if (!(off > kRounding)) return {};
+    const bool is_mirrored = (volume(qform) < 0) != (volume(sform) < 0);
+    return fmt::format("its sform and its qform disagree{}; the sform is used{}",
+                       is_mirrored ? ": one is the mirror image of the other" : " about where the samples lie",
+                       is_mirrored ? ": look whether left and right are on the right side" : "");
+}
+
 /// The metres of the unit of space, which has three bits beside that of time.
 std::optional<double> metres_of(const Header& header) {
     switch (static_cast<unsigned>(header.at(kXyztUnits)) & 7u) {
@@ -162,17 +198,24 @@ std::optional<double> metres_of(const Header& header) {
     }
 }
 
-/// Labels are the stored values; a file that wants them scaled holds something else. No slope, 0 or NaN, scales
-/// nothing.
-void check_unscaled(const std::filesystem::path& path, const Header& header) {
-    const double slope = header.at(kSclSlope), inter = header.at(kSclInter);
-    if (slope == 0 || std::isnan(slope) || (slope == 1 && (inter == 0 || std::isnan(inter)))) return;
-    fail(path, "scl_slope " + std::to_string(slope) + " and scl_inter " + std::to_string(inter) +
-                   " rescale the samples; save the labels unscaled");
+/// No slope, 0 or NaN, scales nothing.
+void set_scale(const std::filesystem::path& path, const Header& header, SampleFormat& format) {
+    const double slope = header.at(kSclSlope), intercept = header.is_analyze ? 0 : header.at(kSclInter);
+    if (header.is_analyze && !std::isfinite(slope)) return;  // SPM has a scale there, others anything
+    if (slope == 0 || std::isnan(slope)) return;
+    if (std::isinf(slope) || std::isinf(intercept))
+        fail(path, "scl_slope and scl_inter are not finite; set them to 1 and 0, or mend them");
+    format.slope = slope;
+    format.intercept = std::isnan(intercept) ? 0 : intercept;
 }
 
-std::int64_t data_offset(const std::filesystem::path& path, const Header& header) {
+std::int64_t data_offset(const std::filesystem::path& path, const Header& header, bool is_pair) {
     const double offset = header.at(kVoxOffset);
+    if (is_pair) {
+        if (!(offset >= 0) || offset > 0x1p62 || offset != std::floor(offset))
+            fail(path, "vox_offset is " + std::to_string(offset) + ", no whole number of bytes; the header is damaged");
+        return static_cast<std::int64_t>(offset);
+    }
     if (offset == 0) return static_cast<std::int64_t>(header.size) + 4;  // four bytes say whether extensions follow
     if (!(offset >= static_cast<double>(header.size)) || offset > 0x1p62 || offset != std::floor(offset))
         fail(path, "vox_offset is " + std::to_string(offset) +
@@ -181,38 +224,84 @@ std::int64_t data_offset(const std::filesystem::path& path, const Header& header
 }
 
 /// `bytes` are the first of the file, kNifti2HeaderBytes if it has as many.
-Header parse_header(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+Header parse_header(const std::filesystem::path& path, std::span<const std::byte> bytes, bool is_pair) {
     for (const bool is_big_endian : {false, true}) {
         const auto size = bytes.size() < 4 ? 0 : load<std::int32_t>(bytes.data(), is_big_endian);
         if (size != kNifti1HeaderBytes && size != kNifti2HeaderBytes) continue;
-        const Header header{bytes, static_cast<std::size_t>(size), is_big_endian};
+        Header header{bytes, static_cast<std::size_t>(size), is_big_endian};
         if (bytes.size() < header.size) {
             fail(path, "the header ends after " + std::to_string(bytes.size()) + " of " + std::to_string(size) +
                            " bytes; the file is truncated, fetch it again");
         }
         const std::string magic{header.at(kMagic, 0), header.at(kMagic, 1), header.at(kMagic, 2)};
-        if (magic.starts_with("ni"))
-            fail(path, "is half of a NIfTI pair (.hdr and .img); join them into one .nii file");
-        if (magic != (header.is_first() ? "n+1" : "n+2"))
-            fail(path, "not a NIfTI file (no magic word; Analyze 7.5?); convert it to .nii");
+        const char version = header.is_first() ? '1' : '2';
+        if (is_pair) {
+            header.is_analyze = header.is_first() && !magic.starts_with("n");
+            if (!header.is_analyze && magic != std::string("ni") + version)
+                fail(path,
+                     "is no header of a NIfTI pair, nor of Analyze 7.5 (its magic word is another); check the file");
+            return header;
+        }
+        if (magic.starts_with("ni")) fail(path, "is half of a NIfTI pair: name it .hdr, and the file of samples .img");
+        if (magic != std::string("n+") + version)
+            fail(path, "not a NIfTI file (no magic word); an Analyze header is named .hdr");
         return header;
     }
     fail(path, "not a NIfTI file (sizeof_hdr is neither 348 nor 540); check the file");
 }
 
+/// The two files of a pair.
+struct PairOfFiles {
+    std::filesystem::path header, samples;
+};
+
+/// Of a path to either, compressed or not; none where the path names a file of another kind.
+std::optional<PairOfFiles> pair_of(const std::filesystem::path& path) {
+    const std::string own = extension(path);
+    if (!own.starts_with(".hdr") && !own.starts_with(".img")) return {};
+    const std::string text = path.string(), stem = text.substr(0, text.size() - own.size());
+    const auto find = [&](std::initializer_list<const char*> endings) {
+        std::error_code ignored;
+        for (const char* ending : endings)
+            if (std::filesystem::is_regular_file(stem + ending, ignored)) return std::filesystem::path(stem + ending);
+        fail(path, fmt::format("is half of a pair, and {}{} is not there; put it beside", stem, *endings.begin()));
+    };
+    PairOfFiles pair;
+    pair.header = own.starts_with(".hdr") ? path : find({".hdr", ".hdr.gz", ".HDR"});
+    pair.samples = own.starts_with(".img") ? path : find({".img", ".img.gz", ".IMG"});
+    return pair;
+}
+
 }  // namespace
 
 std::unique_ptr<SectionReader> open_nifti(const std::filesystem::path& path, const ReadOptions& options) {
+    const auto pair = pair_of(path);
+    const std::filesystem::path header_file = pair ? pair->header : path;
     ArrayFile array{.format = "nifti", .source = path, .remedy = "decompress the file first (gunzip)"};
-    const std::vector<std::byte> bytes = read_header(path, array.encoding, kNifti1HeaderBytes, kNifti2HeaderBytes);
-    const Header header = parse_header(path, bytes);
-    array.sample = {sample_type(path, header.at(kDatatype)), header.is_big_endian};
-    array.lattice.size = volume_size(path, header);
-    check_unscaled(path, header);
-    read_affine(path, header, options, array.lattice);
-    array.space = Space::kRas;
-    array.metres = metres_of(header);
-    array.skipped_bytes = data_offset(path, header);
+    const std::vector<std::byte> bytes =
+        read_header(header_file, array.encoding, kNifti1HeaderBytes, kNifti2HeaderBytes);
+    const Header header = parse_header(header_file, bytes, pair.has_value());
+    if (pair) {
+        array.files = {pair->samples};
+        array.encoding = is_gzipped(InputFile(pair->samples)) ? Encoding::kDeflated : Encoding::kRaw;
+    }
+    array.sample = stored_format(path, header.at(kDatatype), header.is_big_endian);
+    set_scale(path, header, array.sample);
+    const auto size = axis_sizes(path, header);
+    array.lattice.size = checked_size(path, {size[0], size[1], size[2]});
+    choose_volume(size, options, array);
+    array.skipped_bytes = data_offset(path, header, pair.has_value());
+    if (header.is_analyze) {
+        array.format = "analyze";
+        array.lattice.spacing = zooms(path, header, options.spacing);
+        array.warning =
+            "Analyze files do not say where their samples lie, nor which side is left; positions begin at 0";
+    } else {
+        read_affine(path, header, options, array.lattice);
+        array.space = Space::kRas;
+        array.metres = metres_of(header);
+        add_warning(array.warning, warning_of_two_maps(path, header));
+    }
     take_table_beside(array);
     return open_array(array, options);
 }

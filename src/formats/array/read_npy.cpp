@@ -7,10 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/array/array_axes.h"
 #include "formats/array/array_file.h"
+#include "formats/array/npy_array.h"
 #include "formats/array/read_pipe.h"
 #include "formats/array/volume_formats.h"
 #include "formats/array/volume_size.h"
+#include "formats/codec/deflate_stream.h"
 #include "formats/text/json_text.h"
 
 namespace regionmesh::formats {
@@ -92,18 +95,19 @@ TextPlace find_text(const std::filesystem::path& path, std::span<const std::byte
     return {8 + length_bytes, length};
 }
 
-NpyHeader read_header(const InputFile& file) {
+/// Of the .npy file that begins at `begin`.
+NpyHeader read_header(const InputFile& file, std::uint64_t begin) {
     std::array<std::byte, kStartBytes> start{};
-    const std::size_t present = file.read(0, start);
+    const std::size_t present = file.read(begin, start);
     const auto [offset, length] = find_text(file.path(), std::span(start).first(present));
-    if (length > kMaxHeaderBytes || offset + length > file.size()) {
+    if (length > kMaxHeaderBytes || offset + length > file.size() - begin) {
         fail(file.path(), "the npy header says it takes " + std::to_string(length) + " bytes of a file of " +
                               std::to_string(file.size()) + "; the file is truncated, fetch it again");
     }
     std::string text(length, '\0');
-    file.read(offset, std::as_writable_bytes(std::span(text)));
+    file.read(begin + offset, std::as_writable_bytes(std::span(text)));
     NpyHeader header = parse_header(file.path(), text);
-    header.data_offset = offset + length;
+    header.data_offset = begin + offset + length;
     return header;
 }
 
@@ -114,6 +118,8 @@ SampleFormat parse_format(const std::filesystem::path& path, const std::string& 
     const bool has_order = !descr.empty() && std::string_view("<>|=").find(descr.front()) != std::string_view::npos;
     const std::string_view word = std::string_view(descr).substr(has_order ? 1 : 0);
     const char kind = word.empty() ? '?' : word.front();
+    if (word == "f4" || word == "f8")
+        return real_format(word == "f4" ? NumberType::kFloat32 : NumberType::kFloat64, descr.front() == '>');
     if (kind == 'f') refuse("samples are float");
     if (kind == 'c') refuse("samples are complex");
     SampleFormat format{.is_big_endian = descr.front() == '>'};
@@ -129,18 +135,25 @@ SampleFormat parse_format(const std::filesystem::path& path, const std::string& 
     return format;
 }
 
-/// The size along x, y, z. numpy's last index is x.
-std::array<std::uint32_t, 3> size_of(const std::filesystem::path& path, NpyHeader& header) {
-    if (header.shape.size() != 2 && header.shape.size() != 3) {
-        fail(path, "the array has " + std::to_string(header.shape.size()) + " dimensions; save one of shape (z, y, x)");
-    }
-    if (header.shape.size() == 2) header.shape.insert(header.shape.begin(), 1);
-    return checked_size(path, {header.shape[2], header.shape[1], header.shape[0]});
+/// numpy's last index is x. One before z numbers volumes, and one behind x the values of a sample.
+void set_shape(const NpyHeader& header, const ReadOptions& options, ArrayFile& array) {
+    const std::size_t axis_count = header.shape.size();
+    if (axis_count < 2 || axis_count > 4)
+        fail(array.source, "the array has " + std::to_string(axis_count) + " dimensions; save one of shape (z, y, x)");
+    const std::vector<std::string> names(axis_count);
+    const ArrayAxes axes = choose_axes(array.source, header.shape, names, options);
+    array.lattice.size = checked_size(array.source, axes.along(header.shape));
+    if (!axes.has_layers) return;
+    if (header.is_fortran) fail(array.source, "is in Fortran order; save numpy.ascontiguousarray(a)");
+    const bool is_first = axes.axis[0] + 1 == static_cast<int>(axis_count);
+    const std::size_t outer = is_first ? 0 : axis_count - 1;
+    if (header.shape[outer] > kMostLayers) fail(array.source, "has more than 4096 volumes; save fewer in one file");
+    (is_first ? array.blocks : array.components) = static_cast<std::uint32_t>(header.shape[outer]);
+    (is_first ? array.block : array.component) = static_cast<std::uint32_t>(axes.index[outer]);
 }
 
-}  // namespace
-
-StreamedHeader read_npy_header(const std::filesystem::path& path, ByteStream& stream) {
+/// The header at the beginning of a stream; data_offset counts from there.
+NpyHeader take_header(const std::filesystem::path& path, ByteStream& stream) {
     std::vector<std::byte> bytes(kStartBytes);
     bytes.resize(stream.read(bytes));
     const auto [offset, length] = find_text(path, bytes);
@@ -150,18 +163,48 @@ StreamedHeader read_npy_header(const std::filesystem::path& path, ByteStream& st
     const auto rest = std::span(bytes).subspan(kStartBytes);
     if (stream.read(rest) < rest.size()) fail(path, stream.problem());
     NpyHeader header = parse_header(path, {reinterpret_cast<const char*>(bytes.data()) + offset, length});
-    if (header.is_fortran) fail(path, "is in Fortran order; send numpy.ascontiguousarray(a)");
-    return {size_of(path, header), parse_format(path, header.descr)};
+    header.data_offset = offset + length;
+    return header;
 }
 
-std::unique_ptr<SectionReader> open_npy(const std::filesystem::path& path, const ReadOptions& options) {
-    NpyHeader header = read_header(InputFile(path));
-    ArrayFile array{.format = "npy", .source = path, .sample = parse_format(path, header.descr)};
-    array.lattice.size = size_of(path, header);
-    array.begin = header.data_offset;
+std::unique_ptr<SectionReader> open_with(const NpyHeader& header, ArrayFile array, const ReadOptions& options) {
+    array.sample = parse_format(array.source, header.descr);
+    set_shape(header, options, array);
     // In Fortran order the first index, z, runs fastest.
     if (header.is_fortran) array.order = {2, 1, 0};
     return open_array(array, options);
+}
+
+}  // namespace
+
+StreamedHeader read_npy_header(const std::filesystem::path& path, ByteStream& stream) {
+    const NpyHeader header = take_header(path, stream);
+    if (header.is_fortran) fail(path, "is in Fortran order; send numpy.ascontiguousarray(a)");
+    ArrayFile array{.source = path};
+    set_shape(header, {}, array);
+    return {array.lattice.size, parse_format(path, header.descr)};
+}
+
+std::unique_ptr<SectionReader> open_npy_in(const std::filesystem::path& path, std::uint64_t begin, bool is_deflated,
+                                           const ReadOptions& options) {
+    ArrayFile array{.format = "npy", .source = path, .remedy = "write it with numpy.savez, which does not compress"};
+    if (!is_deflated) {
+        const NpyHeader header = read_header(InputFile(path), begin);
+        array.begin = header.data_offset;
+        return open_with(header, std::move(array), options);
+    }
+    DeflateStream stream(std::make_unique<PlainStream>(InputFile(path), begin), /*is_bare=*/true);
+    const NpyHeader header = take_header(path, stream);
+    if (header.is_fortran) fail(path, "is in Fortran order; save numpy.ascontiguousarray(a)");
+    array.encoding = Encoding::kDeflated;
+    array.is_bare = true;
+    array.begin = begin;
+    array.skipped_bytes = static_cast<std::int64_t>(header.data_offset);
+    return open_with(header, std::move(array), options);
+}
+
+std::unique_ptr<SectionReader> open_npy(const std::filesystem::path& path, const ReadOptions& options) {
+    return open_npy_in(path, 0, false, options);
 }
 
 }  // namespace regionmesh::formats

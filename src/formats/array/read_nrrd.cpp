@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/add_warning.h"
 #include "formats/array/affine.h"
 #include "formats/array/array_file.h"
 #include "formats/array/header_fields.h"
@@ -262,20 +263,28 @@ Space place_in_named_space(std::string_view name, Lattice& lattice) {
 
 /// With the numbers of the header.
 void place_in_space(const HeaderFields& fields, const std::vector<Axis>& axes, const ReadOptions& options,
-                    Lattice& lattice) {
+                    ArrayFile& array) {
+    Lattice& lattice = array.lattice;
     const fs::path& path = fields.path();
     constexpr const char* kRemedy = "mend space directions, spacings or origin";
     Columns columns{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
     Vec3 origin{0, 0, 0}, steps{0, 0, 0};
+    std::string unknown;  // axes
     if (!axes[0].direction) {
         for (std::size_t i = 0; i < axes.size(); ++i) {
             const double step = axes[i].step(), low = axes[i].low;
             columns[i][static_cast<int>(i)] = std::isnan(step) ? 1 : step;
+            if (std::isnan(step) && !options.spacing && axes[i].size > 1) unknown += "xyz"[i];
             if (std::isnan(low)) continue;
             origin[static_cast<int>(i)] = low;
             steps[static_cast<int>(i)] = axes[i].is_node_centered ? 0 : 0.5;
         }
         set_affine(path, "map to space", kRemedy, columns, first_sample(columns, origin, steps, options), lattice);
+        if (!unknown.empty())
+            add_warning(array.warning,
+                        fmt::format("the spacing along {} is not known (NaN in the file), and taken as 1; "
+                                    "give the right one with --spacing X,Y,Z",
+                                    unknown));
         return;
     }
     const std::size_t dimension = axes[0].direction->size();
@@ -332,11 +341,14 @@ void set_files(const NrrdText& text, ArrayFile& array) {
 void set_format(const NrrdText& text, ArrayFile& array) {
     for (const char* name : {"type", "encoding"})
         if (text.field(name).empty()) fail(array.source, fmt::format("has no {}; write the header again", name));
-    array.sample.type = sample_type(array.source, text.field("type"));
+    const std::string type = lower(text.field("type"));
+    if (type == "float" || type == "double")
+        array.sample = real_format(type == "float" ? NumberType::kFloat32 : NumberType::kFloat64, false);
+    else
+        array.sample.type = sample_type(array.source, text.field("type"));
     array.encoding = encoding_of(array.source, text.field("encoding"));
     const std::string endian = lower(text.field("endian"));
-    if (sample_bytes(array.sample.type) > 1 && array.encoding != Encoding::kAscii && endian != "little" &&
-        endian != "big")
+    if (sample_bytes(array.sample) > 1 && array.encoding != Encoding::kAscii && endian != "little" && endian != "big")
         text.fields.refuse("endian", "'little' or 'big' is needed");
     array.sample.is_big_endian = endian == "big";
 }
@@ -365,7 +377,7 @@ std::unique_ptr<SectionReader> open_nrrd(const fs::path& path, const ReadOptions
     std::array<std::uint64_t, 3> size{1, 1, 1};
     for (std::size_t i = 0; i < roles.space.size(); ++i) size[i] = roles.space[i].size;
     array.lattice.size = checked_size(path, size);
-    place_in_space(text.fields, roles.space, options, array.lattice);
+    place_in_space(text.fields, roles.space, options, array);
     array.space = place_in_named_space(text.fields.text({"space"}), array.lattice);
     array.metres = metres_of(text.fields);
     set_files(text, array);
@@ -375,9 +387,7 @@ std::unique_ptr<SectionReader> open_nrrd(const fs::path& path, const ReadOptions
     (roles.has_layers_first ? array.component : array.block) = layer;
     take_segments(text.values, layer, array);
     if (array.names.empty()) take_table_beside(array);
-    ReadOptions rest = options;
-    rest.layer.reset();
-    return open_array(array, rest);
+    return open_array(array, without_choice(options));
 }
 
 }  // namespace regionmesh::formats

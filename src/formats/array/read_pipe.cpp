@@ -50,7 +50,7 @@ std::unique_ptr<SectionReader> open_pipe(const ReadOptions& options) {
     } else {
         header = read_npy_header(name, *stream);
     }
-    volume_bytes(name, header.size, sample_bytes(header.format.type));  // refuses what no file holds
+    volume_bytes(name, header.size, sample_bytes(header.format));  // refuses what no file holds
     VolumeInfo info = volume_info(name, "pipe", header.format.type, header.size);
     info.can_rewind = false;
     return open_stream(std::move(stream), std::move(info), {.format = header.format}, options,

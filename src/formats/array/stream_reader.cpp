@@ -29,14 +29,15 @@ private:
         const auto refuse = [&] { fail_section(info_.source, number, stream_->problem()); };
         if (!is_at_data_ && !stream_->skip(layout_.offset)) refuse();
         is_at_data_ = true;
-        const std::size_t bytes = sample_bytes(layout_.format.type), pitch = bytes * layout_.components;
+        const std::size_t bytes = sample_bytes(layout_.format), pitch = bytes * layout_.components;
         const std::size_t part = std::clamp<std::size_t>(kMostPartBytes / pitch, 1, kPartSamples);
         part_.resize(std::min(part, section.size()) * pitch);
         for (std::size_t done = 0; done < section.size();) {
             const std::size_t count = std::min(part_.size() / pitch, section.size() - done);
             if (stream_->read(std::span(part_).first(count * pitch)) < count * pitch) refuse();
-            decode_samples(part_.data() + layout_.component * bytes, pitch, layout_.format,
-                           section.subspan(done, count));
+            require_labels(decode_samples(part_.data() + layout_.component * bytes, pitch, layout_.format,
+                                          section.subspan(done, count)),
+                           number, done);
             done += count;
         }
         if (number + 1 == section_count() && !stream_->finish()) refuse();

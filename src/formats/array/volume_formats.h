@@ -14,11 +14,13 @@ namespace regionmesh::formats {
 /// Throws Error(kInput) that names the file, and the section if it is known.
 using Opener = std::unique_ptr<SectionReader>(const std::filesystem::path& path, const ReadOptions& options);
 
-Opener open_npy, open_nifti, open_nrrd, open_meta_image, open_vti, open_inr, open_mgh;
-Opener open_raw;    // requires options.raw_size and options.raw_type
-Opener open_tiff;   // pages are sections
-Opener open_hdf5;   // a file, or "FILE:/PATH" of a dataset or group
-Opener open_dicom;  // a segmentation
+Opener open_npy, open_nifti, open_nrrd, open_meta_image, open_vti, open_inr, open_mgh, open_mrc, open_legacy_vtk;
+Opener open_amira, open_npz;
+Opener open_vtu_voxels;  // cells that are the voxels of a regular grid; held whole, since cells come in any order
+Opener open_raw;         // requires options.raw_size and options.raw_type
+Opener open_tiff;        // pages are sections
+Opener open_hdf5;        // a file, or "FILE:/PATH" of a dataset or group
+Opener open_dicom;       // a segmentation
 Opener open_zarr,
     open_n5;  // a folder: an array, an image at its finest resolution, or a group with one volume below it
 
@@ -27,6 +29,11 @@ bool is_zarr(const std::filesystem::path& folder);
 
 /// Whether a folder's own files say that it is an array of N5, a group of resolutions, or the root of a store.
 bool is_n5(const std::filesystem::path& folder);
+
+/// Whether the cells of a VTK unstructured grid are the voxels of a regular grid, whole or cut into tetrahedra, with
+/// one label each in the array that choose_label_array() takes: then it is a volume. False for another format, and for
+/// a file that cannot be read.
+bool holds_voxels(const std::filesystem::path& path);
 
 /// Whether the file begins as DICOM files do: 128 bytes of any value, then "DICM".
 bool is_dicom(const InputFile& file);

@@ -52,6 +52,12 @@ VolumeInfo volume_info(const std::filesystem::path& source, const std::string& f
     return info;
 }
 
+ReadOptions without_choice(const ReadOptions& options) {
+    ReadOptions rest = options;
+    rest.layer.reset();
+    return rest;
+}
+
 std::string size_text(const std::array<std::uint64_t, 3>& size) {
     return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
 }

@@ -27,6 +27,9 @@ std::uint64_t volume_bytes(const std::filesystem::path& path, const std::array<s
 VolumeInfo volume_info(const std::filesystem::path& source, const std::string& format, SampleType type,
                        const std::array<std::uint32_t, 3>& size);
 
+/// The options without --layer, for a format that has followed it.
+ReadOptions without_choice(const ReadOptions& options);
+
 /// "5 x 4 x 3"
 std::string size_text(const std::array<std::uint64_t, 3>& size);
 

@@ -32,7 +32,7 @@ public:
           axes_(std::move(axes)),
           size_(size),
           chunk_(chunk),
-          bytes_(sample_bytes(*volume.dataset.sample_type)) {}
+          bytes_(sample_bytes(format_of(volume.dataset).value())) {}
 
     void read(const Block& block, std::span<std::byte> samples) override {
         const auto [inner, outer, swept] = block.sweep.axes;
@@ -121,7 +121,8 @@ Triple reading_chunk(const Hdf5Volume& volume, const ArrayAxes& axes, const std:
     Triple chunk = axes.along(volume.dataset.chunk.empty() ? std::vector<std::uint64_t>(axes.index.size(), 1)
                                                            : volume.dataset.chunk);
     if (volume.dataset.chunk.empty()) {
-        const std::uint64_t volume_size = volume_bytes(volume.source, size, sample_bytes(*volume.dataset.sample_type));
+        const std::uint64_t volume_size =
+            volume_bytes(volume.source, size, sample_bytes(format_of(volume.dataset).value()));
         for (const int axis : {0, 1})
             chunk[axis] = std::clamp<std::uint64_t>(kCrossBytes / (volume_size / size[axis]), 1, kCrossSections);
     }
@@ -130,6 +131,13 @@ Triple reading_chunk(const Hdf5Volume& volume, const ArrayAxes& axes, const std:
 }
 
 }  // namespace
+
+std::optional<SampleFormat> format_of(const Hdf5Entry& dataset) {
+    constexpr bool kIsBig = std::endian::native == std::endian::big;
+    if (dataset.sample_type) return SampleFormat{*dataset.sample_type, kIsBig};
+    if (dataset.type.starts_with("float")) return real_format(NumberType::kFloat64, kIsBig);
+    return std::nullopt;
+}
 
 std::string describe(const Hdf5Entry& dataset) {
     std::string text = dataset.path + " (" + dataset.type;
@@ -149,8 +157,9 @@ std::string list_datasets(const std::filesystem::path& file, const std::vector<H
 
 void require_labels(const std::string& source, const Hdf5Entry& dataset) {
     if (!dataset.obstacle.empty()) fail(source, dataset.obstacle + "; write it again with gzip or uncompressed");
-    if (!dataset.sample_type) fail(source, "samples are " + dataset.type + "; labels must be integers");
-    std::uint64_t bytes = sample_bytes(*dataset.sample_type);
+    const auto format = format_of(dataset);
+    if (!format) fail(source, "samples are " + dataset.type + "; labels must be whole numbers");
+    std::uint64_t bytes = sample_bytes(*format);
     for (const std::uint64_t size : dataset.chunk) {
         if (size == 0 || bytes > kMaxChunkBytes / size)
             fail(source, "a chunk holds more than a GiB; store it in smaller ones (h5repack)");
@@ -168,19 +177,19 @@ std::unique_ptr<SectionReader> open_hdf5_volume(std::unique_ptr<Hdf5Reader> file
         axes = choose_axes(volume.source, dataset.shape, volume.axis_names, options);
     }
     const auto size = checked_size(volume.source, volume.flat_size ? *volume.flat_size : axes.along(dataset.shape));
-    VolumeInfo info = volume_info(volume.source, volume.format, *dataset.sample_type, size);
+    const SampleFormat format = format_of(dataset).value();
+    VolumeInfo info = volume_info(volume.source, volume.format, format.type, size);
     place(info, volume.placement, options);
-    const std::uint64_t sample = sample_bytes(*dataset.sample_type);
+    const std::uint64_t sample = sample_bytes(format);
     Triple chunk = reading_chunk(volume, axes, size);
     const bool is_backed = kMaxBlockBytes / kMaxGrowth <= dataset.stored_bytes;
     if (!is_backed && chunk[0] * chunk[1] * chunk[2] * sample > kMaxBareBytes) chunk = {1, 1, 1};
     const std::uint64_t box_bytes =
         std::min(std::max(kBoxBytes, chunk[0] * chunk[1] * chunk[2] * sample), volume_bytes(info.source, size, sample));
-    const BlockLayout layout{
-        .format = {.type = *dataset.sample_type, .is_big_endian = std::endian::native == std::endian::big},
-        .chunk = chunk,
-        .source_bytes = 3 * box_bytes,  // in this process, in the socket, and in regionmesh-hdf5
-        .is_backed = is_backed};
+    const BlockLayout layout{.format = format,
+                             .chunk = chunk,
+                             .source_bytes = 3 * box_bytes,  // in this process, in the socket, and in regionmesh-hdf5
+                             .is_backed = is_backed};
     auto source = std::make_unique<Hdf5Source>(std::move(file), volume, axes, Triple{size[0], size[1], size[2]}, chunk);
     return open_blocks(std::move(source), std::move(info), layout, axes.without_layer(options));
 }

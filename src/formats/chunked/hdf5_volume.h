@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "formats/array/array_axes.h"
 #include "formats/chunked/hdf5_reader.h"
+#include "formats/codec/sample_format.h"
 
 namespace regionmesh::formats {
 
@@ -19,6 +21,9 @@ struct Hdf5Volume {
 };
 
 /// "/cells (uint16, 4 x 5 x 6)"
+/// Of the samples that the program hands over; none where they are no numbers.
+std::optional<SampleFormat> format_of(const Hdf5Entry& dataset);
+
 std::string describe(const Hdf5Entry& dataset);
 
 /// "a.h5:/cells (uint16, 4 x 5 x 6), a.h5:/mask (...)": at most eight, for an error.

@@ -21,11 +21,35 @@ const Json& ome_part(const Json& attributes) {
     return attributes.is_object() && attributes.contains("ome") ? attributes.at("ome") : attributes;
 }
 
+/// A system of coordinates is named by a word, or by an object with a name.
+std::string system_name(const Json& reference) {
+    if (reference.is_object()) return reference.value("name", "");
+    return reference.is_string() ? reference.get<std::string>() : "";
+}
+
+/// Since version 0.6 axes belong to systems of coordinates: those of the system into which the samples of the finest
+/// resolution are placed; the first where none is named so.
+Json axes_of(const Json& image) {
+    if (image.contains("axes")) return image.at("axes");
+    const Json systems = image.value("coordinateSystems", Json::array());
+    if (systems.empty()) return {};
+    std::string wanted;
+    const Json& datasets = image.at("datasets");
+    if (!datasets.empty()) {
+        const Json steps = datasets.at(0).value("coordinateTransformations", Json::array());
+        if (!steps.empty()) wanted = system_name(steps.back().value("output", Json()));
+    }
+    for (const Json& system : systems)
+        if (system.at("name") == wanted) return system.at("axes");
+    return systems.at(0).at("axes");
+}
+
 /// Axes are objects since version 0.4 and words in 0.3; older versions have a fixed order without names.
 std::vector<std::string> axis_names(const Json& image) {
-    if (!image.contains("axes")) return {"t", "c", "z", "y", "x"};
+    const Json axes = axes_of(image);
+    if (axes.is_null()) return {"t", "c", "z", "y", "x"};
     std::vector<std::string> names;
-    for (const Json& axis : image.at("axes")) {
+    for (const Json& axis : axes) {
         const std::string name = axis.is_string() ? axis : axis.at("name");
         names.push_back(lower(name));
     }
@@ -33,10 +57,16 @@ std::vector<std::string> axis_names(const Json& image) {
 }
 
 /// Applies the transformations one after another.
-void transform(const fs::path& group, const Json& transformations, OmeLevel& level) {
+void transform(const fs::path& group, const Json& transformations, OmeLevel& level, int depth = 0) {
+    constexpr int kMostDepth = 4;
+    if (depth > kMostDepth) fail(group, "sequences of transformations lie in one another; write them as one");
     for (const Json& step : transformations) {
         const std::string type = step.at("type");
         if (type == "identity") continue;
+        if (type == "sequence") {
+            transform(group, step.at("transformations"), level, depth + 1);
+            continue;
+        }
         if ((type != "scale" && type != "translation") || !step.contains(type))
             fail(group, "positions in space are given by '" + type + "', which is not read; scale and translation are");
         const auto numbers = step.at(type).get<std::vector<double>>();
@@ -55,8 +85,7 @@ void transform(const fs::path& group, const Json& transformations, OmeLevel& lev
 void use_one_unit(const fs::path& group, const Json& image, OmeLevel& level) {
     std::vector<std::string> units(level.axes.size());
     std::string wanted;
-    const Json none = Json::array();
-    const Json& axes = image.contains("axes") ? image.at("axes") : none;
+    const Json axes = axes_of(image);
     for (std::size_t axis = 0; axis < std::min(axes.size(), units.size()); ++axis) {
         if (axes[axis].is_object() && axes[axis].value("unit", Json()).is_string())
             axes[axis].at("unit").get_to(units[axis]);
@@ -93,7 +122,9 @@ std::vector<OmeLevel> ome_levels(const fs::path& group, const Json& attributes) 
             OmeLevel level{.folder = group / path, .axes = axis_names(image), .scale = {}, .translation = {}};
             const Json none = Json::array();
             transform(group, dataset.value("coordinateTransformations", none), level);
-            transform(group, image.value("coordinateTransformations", none), level);
+            // Since 0.6 those of the image lead into other systems than its own.
+            if (!image.contains("coordinateSystems"))
+                transform(group, image.value("coordinateTransformations", none), level);
             use_one_unit(group, image, level);
             levels.push_back(std::move(level));
         }

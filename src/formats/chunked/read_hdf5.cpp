@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "formats/array/volume_formats.h"
@@ -33,12 +34,14 @@ void add_lab_dct_spacing(Hdf5Reader& file, Hdf5Volume& volume) {
     volume.placement.warning.clear();
 }
 
-/// Datasets of integers below a group that may be volumes.
+/// Datasets of integers, or else of reals, below a group that may be volumes.
 std::vector<Hdf5Entry> find_candidates(Hdf5Reader& file, const std::string& below) {
     std::vector<Hdf5Entry> entries = file.entries();
     std::erase_if(entries, [&](const Hdf5Entry& entry) {
-        return !entry.sample_type || !may_be_volume(entry.shape) || !entry.path.starts_with(below);
+        return !format_of(entry) || !may_be_volume(entry.shape) || !entry.path.starts_with(below);
     });
+    if (std::ranges::any_of(entries, [](const Hdf5Entry& entry) { return entry.sample_type.has_value(); }))
+        std::erase_if(entries, [](const Hdf5Entry& entry) { return !entry.sample_type; });
     return entries;
 }
 
@@ -48,7 +51,7 @@ Hdf5Entry only_candidate(Hdf5Reader& file, const std::string& source, const std:
         return file.entry(candidates.front().path).value_or(candidates.front());  // with words of variable length
     if (candidates.empty())
         fail(source,
-             "holds no dataset of integers with 2 or 3 dimensions; labels must be integers. One with more dimensions, "
+             "holds no dataset of numbers with 2 or 3 dimensions. One with more dimensions, "
              "whose axes have names, is read if you name it, as in " +
                  source + ":/path, with --layer N");
     fail(source, "holds several datasets; name one: " + list_datasets(file.path(), candidates));

@@ -47,13 +47,13 @@ StoreArray parse_array(const fs::path& folder, const Json& attributes) {
     reading(metadata, [&] {
         array.shape = slowest_first(whole_numbers(metadata, attributes.at("dimensions")));
         array.chunk = slowest_first(whole_numbers(metadata, attributes.at("blockSize")));
-        array.format = {.type = integer_type(metadata, attributes.at("dataType")), .is_big_endian = true};
+        array.format = format_of(metadata, attributes.at("dataType"), /*is_big_endian=*/true);
         array.codecs = parse_compression(metadata, attributes);
     });
     array.file = array.chunk;
     array.stored.resize(array.chunk.size());
     std::iota(array.stored.begin(), array.stored.end(), 0);
-    array.fill.resize(sample_bytes(array.format.type));
+    array.fill.resize(sample_bytes(array.format));
     array.has_head = true;
     array.names = {.separator = '/', .is_reversed = true};
     check_array(array, metadata);

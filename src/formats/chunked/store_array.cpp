@@ -84,7 +84,7 @@ void for_each_index(const Range& range, Visit&& visit) {
 class ChunkSource final : public BlockSource {
 public:
     ChunkSource(StoreArray array, ArrayAxes axes)
-        : array_(std::move(array)), axes_(std::move(axes)), bytes_(sample_bytes(array_.format.type)) {}
+        : array_(std::move(array)), axes_(std::move(axes)), bytes_(sample_bytes(array_.format)) {}
 
     void read(const Block& block, std::span<std::byte> samples) override {
         wanted_ = {axes_.index, axes_.index};
@@ -250,7 +250,7 @@ std::uint64_t deepest_block(const StoreArray& array, const ArrayAxes& axes) {
     std::uint64_t most = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const std::uint64_t section = size[(axis + 1) % 3] * size[(axis + 2) % 3];
-        const std::uint64_t bytes = std::min(chunk[axis], size[axis]) * sample_bytes(array.format.type);
+        const std::uint64_t bytes = std::min(chunk[axis], size[axis]) * sample_bytes(array.format);
         most = std::max(most, section > kMaxBlockBytes / bytes ? kMaxBlockBytes : section * bytes);
     }
     return most;
@@ -298,7 +298,7 @@ void check_array(const StoreArray& array, const fs::path& metadata) {
         fail(metadata, "the array has " + std::to_string(axes) + " dimensions; 2 or 3 are read");
     if (array.chunk.size() != axes || array.file.size() != axes || array.stored.size() != axes)
         fail(metadata, "chunks have another number of dimensions than the array; write the file again");
-    std::uint64_t bytes = sample_bytes(array.format.type), in_shard = 1;
+    std::uint64_t bytes = sample_bytes(array.format), in_shard = 1;
     for (std::size_t axis = 0; axis < axes; ++axis) {
         const std::uint64_t chunk = array.chunk[axis], file = array.file[axis];
         if (std::ranges::count(array.stored, static_cast<int>(axis)) != 1)
@@ -317,22 +317,24 @@ std::unique_ptr<SectionReader> open_store_array(StoreArray array, StoreVolume vo
     const auto size = checked_size(array.folder, volume.axes.along(array.shape));
     const std::uint64_t deepest = deepest_block(array, volume.axes);
     const bool is_backed = may_be_filled(array, deepest > kMaxBareBytes ? deepest : 0);
-    VolumeInfo info = volume_info(volume.source, volume.format, array.format.type, size);
+    VolumeInfo info = volume_info(volume.source, volume.format, label_type(array.format), size);
     place(info, volume.placement, options);
     info.names = std::move(volume.names);
     info.colours = std::move(volume.colours);
     const BlockLayout layout{.format = array.format,
                              .chunk = volume.axes.along(array.chunk),
-                             .source_bytes = 2 * product(array.chunk) * sample_bytes(array.format.type),
+                             .source_bytes = 2 * product(array.chunk) * sample_bytes(array.format),
                              .is_backed = is_backed};
     const ReadOptions rest = volume.axes.without_layer(options);
     auto source = std::make_unique<ChunkSource>(std::move(array), std::move(volume.axes));
     return open_blocks(std::move(source), std::move(info), layout, rest);
 }
 
-SampleType integer_type(const fs::path& metadata, const std::string& word) {
-    if (const auto type = parse_sample_type(word)) return *type;
-    fail(metadata, "samples are '" + word + "'; labels must be integers");
+SampleFormat format_of(const fs::path& metadata, const std::string& word, bool is_big_endian) {
+    if (word == "float32" || word == "float64")
+        return real_format(word == "float32" ? NumberType::kFloat32 : NumberType::kFloat64, is_big_endian);
+    if (const auto type = parse_sample_type(word)) return {*type, is_big_endian};
+    fail(metadata, "samples are '" + word + "'; labels must be whole numbers");
 }
 
 void refuse_codec(const fs::path& metadata, const std::string& name) {

@@ -56,8 +56,8 @@ void check_array(const StoreArray& array, const std::filesystem::path& metadata)
 /// `fill`. Throws if there is no chunk at all.
 std::unique_ptr<SectionReader> open_store_array(StoreArray array, StoreVolume volume, const ReadOptions& options);
 
-/// The integer type of a word ("uint16", "bool"). Throws for any other word.
-SampleType integer_type(const std::filesystem::path& metadata, const std::string& word);
+/// The format of a word ("uint16", "bool", "float32"). Throws for any other word.
+SampleFormat format_of(const std::filesystem::path& metadata, const std::string& word, bool is_big_endian = false);
 
 /// Throws the error for a codec that is not read; it lists those that are.
 [[noreturn]] void refuse_codec(const std::filesystem::path& metadata, const std::string& name);

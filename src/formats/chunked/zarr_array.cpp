@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 #include <string_view>
@@ -15,8 +16,29 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
+/// A real as stored; "NaN" and the like may be those of samples that are never read.
+std::vector<std::byte> stored_real(const fs::path& metadata, const Json& value, const SampleFormat& format) {
+    double real = 0;
+    if (value.is_number())
+        real = value.get<double>();
+    else if (value == "NaN")
+        real = NAN;
+    else if (value == "Infinity" || value == "-Infinity")
+        real = value == "Infinity" ? INFINITY : -INFINITY;
+    else if (!value.is_null())
+        fail(metadata, "the fill value " + value.dump() + " is no number; correct it");
+    const bool is_single = format.real == NumberType::kFloat32;
+    const std::uint64_t bits =
+        is_single ? std::bit_cast<std::uint32_t>(static_cast<float>(real)) : std::bit_cast<std::uint64_t>(real);
+    std::vector<std::byte> sample(sample_bytes(format));
+    for (std::size_t i = 0; i < sample.size(); ++i)
+        sample[format.is_big_endian ? sample.size() - 1 - i : i] = static_cast<std::byte>(bits >> (8 * i));
+    return sample;
+}
+
 /// A sample as stored. Without a fill value any sample will do.
-std::vector<std::byte> stored_sample(const fs::path& metadata, const Json& value, SampleFormat format) {
+std::vector<std::byte> stored_sample(const fs::path& metadata, const Json& value, const SampleFormat& format) {
+    if (format.real) return stored_real(metadata, value, format);
     std::uint64_t bits = 0;
     if (value.is_boolean()) {
         bits = value.get<bool>() ? 1 : 0;
@@ -30,7 +52,7 @@ std::vector<std::byte> stored_sample(const fs::path& metadata, const Json& value
     if (!range_of(format.type).holds(static_cast<InputLabel>(bits), is_negative))
         fail(metadata, "the fill value " + value.dump() + " is no number of type " + to_string(format.type) +
                            "; correct it, or the type");
-    std::vector<std::byte> sample(sample_bytes(format.type));
+    std::vector<std::byte> sample(sample_bytes(format));
     for (std::size_t i = 0; i < sample.size(); ++i)
         sample[format.is_big_endian ? sample.size() - 1 - i : i] = static_cast<std::byte>(bits >> (8 * i));
     return sample;
@@ -47,10 +69,12 @@ SampleFormat parse_dtype(const fs::path& metadata, const Json& dtype) {
     if (!dtype.is_string()) fail(metadata, "samples are structures; labels must be integers");
     const auto word = dtype.get<std::string>();
     if (word == "|b1") return {.type = SampleType::kU1};
+    if (word.size() == 3 && word[1] == 'f' && (word[2] == '4' || word[2] == '8'))
+        return format_of(metadata, word[2] == '4' ? "float32" : "float64", word[0] == '>');
     const bool is_integer = word.size() == 3 && (word[1] == 'i' || word[1] == 'u') && word[2] >= '1' && word[2] <= '8';
     const std::string name = std::string(is_integer && word[1] == 'u' ? "uint" : "int") +
                              (is_integer ? std::to_string(8 * (word[2] - '0')) : "");
-    return {.type = integer_type(metadata, is_integer ? name : word), .is_big_endian = word[0] == '>'};
+    return format_of(metadata, is_integer ? name : word, word[0] == '>');
 }
 
 /// Version 3 has codecs of numcodecs under longer names.
@@ -172,7 +196,7 @@ StoreArray parse_version_3(const fs::path& folder, const Json& json) {
     StoreArray array{.folder = folder};
     array.shape = whole_numbers(metadata, json.at("shape"));
     const Json& type = json.at("data_type");
-    array.format.type = integer_type(metadata, type.is_string() ? type.get<std::string>() : type.dump());
+    array.format = format_of(metadata, type.is_string() ? type.get<std::string>() : type.dump());
     const Json& grid = json.at("chunk_grid");
     if (grid.at("name") != "regular")
         fail(metadata, "the chunk grid is " + grid.at("name").dump() + "; regular ones are read");

@@ -11,12 +11,14 @@ namespace {
 constexpr std::size_t kPackedBytes = std::size_t{256} << 10;
 constexpr int kAnyWrapper =
     15 + 32;  // for zlib: the largest window; the header says whether zlib or gzip wrote the stream
+constexpr int kNoWrapper = -15;
 constexpr std::array<std::byte, 2> kMagic{std::byte{0x1f}, std::byte{0x8b}};
 
 }  // namespace
 
-DeflateStream::DeflateStream(std::unique_ptr<ByteStream> packed) : packed_(std::move(packed)), buffer_(kPackedBytes) {
-    if (inflateInit2(&stream_, kAnyWrapper) != Z_OK) throw std::bad_alloc();
+DeflateStream::DeflateStream(std::unique_ptr<ByteStream> packed, bool is_bare)
+    : packed_(std::move(packed)), buffer_(kPackedBytes) {
+    if (inflateInit2(&stream_, is_bare ? kNoWrapper : kAnyWrapper) != Z_OK) throw std::bad_alloc();
 }
 
 DeflateStream::~DeflateStream() { inflateEnd(&stream_); }

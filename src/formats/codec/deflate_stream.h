@@ -20,7 +20,9 @@ class DeflateStream final : public ByteStream {
 public:
     explicit DeflateStream(InputFile file, std::uint64_t begin = 0)
         : DeflateStream(std::make_unique<PlainStream>(std::move(file), begin)) {}
-    explicit DeflateStream(std::unique_ptr<ByteStream> packed);
+    explicit DeflateStream(std::unique_ptr<ByteStream> packed) : DeflateStream(std::move(packed), false) {}
+    /// With `is_bare` the stream has no wrapper, as in zip archives.
+    DeflateStream(std::unique_ptr<ByteStream> packed, bool is_bare);
     DeflateStream(const DeflateStream&) = delete;
     DeflateStream& operator=(const DeflateStream&) = delete;
     ~DeflateStream() override;

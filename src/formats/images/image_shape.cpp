@@ -1,5 +1,7 @@
 #include "formats/images/image_shape.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 
 #include "formats/array/volume_size.h"
@@ -19,6 +21,7 @@ SampleType unsigned_type(int bits) {
 }
 
 SampleType channel_type(const ImageShape& shape) {
+    if (shape.is_real) return SampleType::kI64;
     if (!shape.is_signed) return unsigned_type(shape.bits);
     if (shape.bits <= 8) return SampleType::kI8;
     if (shape.bits <= 16) return SampleType::kI16;
@@ -76,6 +79,7 @@ std::string warning_of_alpha(const ImageShape& shape) {
 std::string describe(const ImageShape& shape) {
     std::string text = std::to_string(shape.width) + " x " + std::to_string(shape.height) + " ";
     if (shape.channels > 1) text += std::to_string(shape.channels) + " x ";
+    if (shape.is_real) return text + "float" + std::to_string(shape.bits);
     text += shape.bits == 2 || shape.bits == 4 ? std::to_string(shape.bits) + "-bit" : to_string(channel_type(shape));
     if (shape.is_palette) text += " palette";
     return text;
@@ -94,13 +98,17 @@ void check_shape(const std::filesystem::path& path, std::uint64_t section, const
         return false;
     };
     const bool is_read =
-        shape.channels == 1
+        shape.is_real ? shape.channels == 1 && is_one_of(shape.bits, {32, 64})
+        : shape.channels == 1
             ? is_one_of(shape.bits, {8, 16, 32, 64}) || (!shape.is_signed && is_one_of(shape.bits, {1, 2, 4}))
             : is_one_of(shape.channels, {2, 3, 4}) && is_one_of(shape.bits, {8, 16}) && !shape.is_signed;
     if (!is_read) {
         fail_section(path, section,
                      "pixels have " + std::to_string(shape.channels) + " channels of " + std::to_string(shape.bits) +
-                         (shape.is_signed ? " signed" : "") + " bits, which is not read; convert to 8 or 16 bit gray");
+                         (shape.is_real     ? " float"
+                          : shape.is_signed ? " signed"
+                                            : "") +
+                         " bits, which is not read; convert to 8 or 16 bit gray");
     }
 }
 
@@ -112,17 +120,26 @@ void check_same_shape(const std::filesystem::path& path, std::uint64_t section, 
                      "; give sections of one size and type");
 }
 
-void unpack_row(std::span<const std::byte> row, const ImageShape& shape, RowFormat format,
-                std::span<InputLabel> labels) {
+void require_labels(const std::filesystem::path& path, std::uint64_t section, const std::optional<NoLabel>& problem,
+                    std::uint64_t column, std::uint64_t row) {
+    if (problem)
+        fail_section(path, section,
+                     fmt::format("pixel ({}, {}) {}", column + problem->index, row, why_no_label(problem->value)));
+}
+
+std::optional<NoLabel> unpack_row(std::span<const std::byte> row, const ImageShape& shape, RowFormat format,
+                                  std::span<InputLabel> labels) {
     assert(row.size() * 8 >= labels.size() * shape.bits * format.channel_count);
     if (shape.channels > 1) {
         or_channels(row, shape, format, labels);
     } else if (shape.bits < 8) {
         unpack_bits(row, shape.bits, labels);
     } else {
-        const SampleFormat sample{channel_type(shape), format.is_big_endian};
-        decode_samples(row.data(), sample_bytes(sample.type), sample, labels);
+        SampleFormat sample{channel_type(shape), format.is_big_endian};
+        if (shape.is_real) sample.real = shape.bits == 32 ? NumberType::kFloat32 : NumberType::kFloat64;
+        return decode_samples(row.data(), sample_bytes(sample), sample, labels);
     }
+    return std::nullopt;
 }
 
 }  // namespace regionmesh::formats

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
+#include "formats/codec/sample_format.h"
 #include "regionmesh/section_reader.h"
 
 namespace regionmesh::formats {
@@ -22,6 +24,7 @@ struct ImageShape {
     int bits = 8;      // of one channel
     bool is_signed = false;
     bool is_palette = false;
+    bool is_real = false;
 
     friend bool operator==(const ImageShape&, const ImageShape&) = default;
 };
@@ -44,6 +47,10 @@ std::string warning_of_alpha(const ImageShape& shape);
 /// "640 x 480 uint8", "640 x 480 uint8 palette", "640 x 480 4 x uint16".
 std::string describe(const ImageShape& shape);
 
+/// Throws where a pixel is no label.
+void require_labels(const std::filesystem::path& path, std::uint64_t section, const std::optional<NoLabel>& problem,
+                    std::uint64_t column, std::uint64_t row);
+
 /// Throws for an empty image, more than 2^31 pixels, or channels that are not read. Read are one channel of 1, 2, 4, 8,
 /// 16, 32 or 64 bits, and two to four channels of 8 or 16 bits.
 void check_shape(const std::filesystem::path& path, std::uint64_t section, const ImageShape& shape);
@@ -60,8 +67,8 @@ struct RowFormat {
 };
 
 /// Decodes a row of stored samples (bits packed from the highest down) to labels. Several channels are or-ed into
-/// `labels`, which must be 0 before the first channel.
-void unpack_row(std::span<const std::byte> row, const ImageShape& shape, RowFormat format,
-                std::span<InputLabel> labels);
+/// `labels`, which must be 0 before the first channel. Returns the first real that is no label.
+std::optional<NoLabel> unpack_row(std::span<const std::byte> row, const ImageShape& shape, RowFormat format,
+                                  std::span<InputLabel> labels);
 
 }  // namespace regionmesh::formats

@@ -16,6 +16,23 @@ namespace regionmesh::formats {
 namespace {
 
 constexpr std::uint64_t kMaxBlockBytes = std::uint64_t{1} << 30;
+constexpr int kFirstTransposed = 5;  // of the values of the tag Orientation: from here on rows are columns
+
+/// Where the pixel of a turned page lies in the stored one, by the tag Orientation.
+struct Turn {
+    int orientation;
+    std::uint32_t width, height;  // as stored
+
+    std::size_t operator()(std::uint32_t column, std::uint32_t row) const {
+        if (orientation >= kFirstTransposed) std::swap(column, row);
+        constexpr std::array kFromRight{false, true, true, false, false, false, true, true};
+        constexpr std::array kFromBottom{false, false, true, true, false, true, true, false};
+        const auto n = static_cast<std::size_t>(orientation - 1);
+        if (kFromRight[n]) column = width - 1 - column;
+        if (kFromBottom[n]) row = height - 1 - row;
+        return std::size_t{row} * width + column;
+    }
+};
 
 /// Most bytes that one byte of the file unpacks to. A packbits pair gives 128; an LZW code of nine bits or more, 4096.
 constexpr std::array<std::pair<int, std::uint64_t>, 5> kExpansions{{{COMPRESSION_NONE, 1},
@@ -126,7 +143,6 @@ void TiffFile::check_pixels(std::uint64_t section) const {
     TIFF* tiff = tiff_.get();
     const auto format = tag<std::uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
     const char* what = nullptr;
-    if (format == SAMPLEFORMAT_IEEEFP) what = "float";
     if (format == SAMPLEFORMAT_COMPLEXINT || format == SAMPLEFORMAT_COMPLEXIEEEFP) what = "complex";
     if (what)
         fail_section(path_, section,
@@ -160,9 +176,21 @@ void TiffFile::check_backing(const ImageShape& shape, std::uint64_t section) con
                      " bytes can hold; the file is truncated or damaged, fetch it again");
 }
 
+int TiffFile::orientation() const {
+    const auto found = tag<std::uint16_t>(tiff_.get(), TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+    return found >= 1 && found <= 8 ? found : 1;
+}
+
 ImageShape TiffFile::read_shape(std::uint32_t page, std::uint64_t section) {
     select(page, section);
     check_pixels(section);
+    ImageShape shape = stored_shape(section);
+    if (orientation() >= kFirstTransposed) std::swap(shape.width, shape.height);
+    return shape;
+}
+
+/// Of the selected page, before it is turned.
+ImageShape TiffFile::stored_shape(std::uint64_t section) const {
     TIFF* tiff = tiff_.get();
     if (const auto depth = tag<std::uint32_t>(tiff, TIFFTAG_IMAGEDEPTH, 1); depth > 1)
         fail_section(path_, section,
@@ -173,7 +201,8 @@ ImageShape TiffFile::read_shape(std::uint32_t page, std::uint64_t section) {
         .channels = tag<std::uint16_t>(tiff, TIFFTAG_SAMPLESPERPIXEL, 1),
         .bits = tag<std::uint16_t>(tiff, TIFFTAG_BITSPERSAMPLE, 1),
         .is_signed = tag<std::uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT) == SAMPLEFORMAT_INT,
-        .is_palette = tag<std::uint16_t>(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) == PHOTOMETRIC_PALETTE};
+        .is_palette = tag<std::uint16_t>(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) == PHOTOMETRIC_PALETTE,
+        .is_real = tag<std::uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT) == SAMPLEFORMAT_IEEEFP};
     check_shape(path_, section, shape);
     check_backing(shape, section);
     return shape;
@@ -189,7 +218,7 @@ std::array<double, 2> TiffFile::resolution() const {
 }
 
 std::optional<std::uint64_t> TiffFile::bare_offset() const {
-    if (TIFFIsTiled(tiff_.get()) ||
+    if (TIFFIsTiled(tiff_.get()) || orientation() != 1 ||
         tag<std::uint16_t>(tiff_.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE) {
         return std::nullopt;
     }
@@ -269,8 +298,8 @@ public:
 
     bool has_row(std::uint32_t row) const { return window_.low[1] <= row && row < window_.high[1]; }
     /// A row of the window whose pixels begin at column `left` of the image and are `columns`.
-    void unpack(std::span<const std::byte> pixels, RowFormat format, std::uint32_t row,
-                std::array<std::uint32_t, 2> columns) {
+    std::optional<NoLabel> unpack(std::span<const std::byte> pixels, RowFormat format, std::uint32_t row,
+                                  std::array<std::uint32_t, 2> columns) {
         const auto [left, right] = columns;
         const std::uint32_t low = std::max(left, window_.low[0]), high = std::min(right, window_.high[0]);
         const auto wanted =
@@ -279,8 +308,9 @@ public:
         whole_.assign(high - left, 0);
         const auto part = std::span(whole_).subspan(low - left);
         std::ranges::copy(wanted, part.begin());  // channels are added to those there
-        unpack_row(pixels, shape_, format, whole_);
+        auto problem = unpack_row(pixels, shape_, format, whole_);
         std::ranges::copy(part, wanted.begin());
+        return problem;
     }
 
 private:
@@ -292,8 +322,22 @@ private:
 
 void TiffFile::read_page(std::uint32_t page, std::uint64_t section, const Wanted& wanted,
                          std::span<InputLabel> labels) {
+    check_same_shape(path_, section, read_shape(page, section), wanted.shape);
+    const int turned = orientation();
+    if (turned == 1) return read_stored(section, wanted, labels);
+    const ImageShape stored = stored_shape(section);
+    std::vector<InputLabel> whole(std::size_t{stored.width} * stored.height);
+    read_stored(section, all_of(stored), whole);
+    const Turn turn{turned, stored.width, stored.height};
+    const auto& [low, high] = wanted.window;
+    auto label = labels.begin();
+    for (std::uint32_t row = low[1]; row < high[1]; ++row)
+        for (std::uint32_t column = low[0]; column < high[0]; ++column) *label++ = whole[turn(column, row)];
+}
+
+/// Of the selected page, before it is turned.
+void TiffFile::read_stored(std::uint64_t section, const Wanted& wanted, std::span<InputLabel> labels) {
     const auto& [shape, window] = wanted;
-    check_same_shape(path_, section, read_shape(page, section), shape);
     const Blocks all = blocks(shape, section);
     std::vector<std::byte> pixels(all.bytes);
     WindowRows rows_of_window(shape, window, labels);
@@ -307,8 +351,10 @@ void TiffFile::read_page(std::uint32_t page, std::uint64_t section, const Wanted
         decode(all, block, section, std::span(pixels).first(all.row_bytes * (all.are_tiles ? all.height : rows)));
         for (std::uint32_t row = 0; row < rows; ++row)
             if (rows_of_window.has_row(block.top + row))
-                rows_of_window.unpack(std::span(pixels).subspan(row * all.row_bytes, all.row_bytes), format,
-                                      block.top + row, {block.left, block.left + columns});
+                require_labels(path_, section,
+                               rows_of_window.unpack(std::span(pixels).subspan(row * all.row_bytes, all.row_bytes),
+                                                     format, block.top + row, {block.left, block.left + columns}),
+                               block.left, block.top + row);
     };
     for (int plane = 0; plane < all.planes; ++plane) {
         format.first_channel = plane;

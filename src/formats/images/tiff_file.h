@@ -38,8 +38,12 @@ public:
     /// The offset of the pixels of the selected page, if they are neither compressed nor in tiles.
     std::optional<std::uint64_t> bare_offset() const;
 
-    /// Whether the selected page is stored in tiles.
-    bool is_tiled() const { return TIFFIsTiled(tiff_.get()) != 0; }
+    /// The tag Orientation of the selected page: 1 where rows begin at the top and columns at the left, 2 to 8 where
+    /// pages are turned or mirrored while they are read.
+    int orientation() const;
+
+    /// Whether the selected page is stored in tiles, and not turned.
+    bool is_tiled() const { return TIFFIsTiled(tiff_.get()) != 0 && orientation() == 1; }
 
     /// What of a page is read: a window of an image with this shape.
     struct Wanted {
@@ -72,6 +76,8 @@ private:
     void check_pixels(std::uint64_t section) const;
     bool can_hold(std::uint64_t bytes) const;
     void check_backing(const ImageShape& shape, std::uint64_t section) const;
+    ImageShape stored_shape(std::uint64_t section) const;
+    void read_stored(std::uint64_t section, const Wanted& wanted, std::span<InputLabel> labels);
     Blocks blocks(const ImageShape& shape, std::uint64_t section) const;
     void check_sum(const Blocks& blocks, std::uint32_t number, std::uint64_t section) const;
     void decode(const Blocks& blocks, Block block, std::uint64_t section, std::span<std::byte> pixels);

@@ -76,6 +76,25 @@ FileRegions::FileRegions(const FileView& view) : view_(view), numbers_(view.labe
         regions_.push_back({label, "region_" + text + (name.empty() ? "" : " " + name), word});
         numbers_[label] = static_cast<std::uint32_t>(regions_.size());
     }
+    set_tags();
+}
+
+void FileRegions::set_tags() {
+    constexpr std::uint64_t kMost = 0x7FFFFFFF;
+    std::set<std::uint32_t> taken;
+    const auto own = [&](const FileRegion& region) -> std::optional<std::uint32_t> {
+        const auto label = static_cast<std::uint64_t>(view_.labels().input(region.label));
+        return label >= 1 && label <= kMost ? std::optional(static_cast<std::uint32_t>(label)) : std::nullopt;
+    };
+    for (const FileRegion& region : regions_)
+        if (const auto label = own(region)) taken.insert(*label);
+    std::uint32_t free = 0;
+    for (const FileRegion& region : regions_) {
+        const auto label = own(region);
+        if (!label)
+            while (taken.contains(++free)) continue;
+        tags_.push_back(label.value_or(free));
+    }
 }
 
 FileRegions::Key FileRegions::key_of(FaceId f) const {

@@ -33,10 +33,13 @@ class FileRegions {
 public:
     explicit FileRegions(const FileView& view);
 
-    /// In the order of files: all()[n] has number n + 1 in a file.
+    /// In the order of files.
     const std::vector<FileRegion>& all() const { return regions_; }
-    /// From 1 to all().size(); 0 for background and exterior.
+    /// One more than the index in all(), from 1; 0 for background and exterior.
     std::uint32_t number(Label label) const { return is_exterior(label) ? 0 : numbers_[label]; }
+    /// What stands for the region where a file has one number for it: its label, if that is from 1 to 2^31 - 1; else
+    /// the lowest from 1 that no label has.
+    std::uint32_t tag(const FileRegion& region) const { return tags_[numbers_[region.label] - 1]; }
 
     const std::vector<FileInterface>& interfaces() const { return interfaces_; }
     /// From 1 to interfaces().size().
@@ -46,10 +49,12 @@ private:
     using Key = std::array<std::uint32_t, 2>;  // ranks
 
     Key key_of(FaceId f) const;
+    void set_tags();
 
     const FileView& view_;
     std::vector<FileRegion> regions_;
     std::vector<std::uint32_t> numbers_;  // by dense label
+    std::vector<std::uint32_t> tags_;     // by index of region
     std::vector<FileInterface> interfaces_;
     std::map<Key, std::uint32_t> interface_numbers_;
 };

@@ -12,6 +12,7 @@
 #include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/header_text.h"
 #include "formats/vtk/label_array.h"
+#include "regionmesh/error.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -190,8 +191,14 @@ public:
 private:
     enum class Source { kGroups, kVolumes, kViews };
 
-    bool count_tetrahedra();
-    void choose_labels(bool has_physical, const std::string& wanted);
+    /// What the tags of tetrahedra tell apart.
+    struct Tags {
+        bool has_physical = false;  // any is in a physical group
+        bool has_one_volume = true;
+    };
+    Tags look_at_tags() const;
+    bool has_whole_values(const MshView& view);
+    void choose_labels(const std::string& wanted);
     void take(const MshTetrahedron& from, LabelledTetrahedron& tetrahedron) const;
     InputLabel label_of(const MshTetrahedron& tetrahedron) const;
     [[noreturn]] void fail(const MshTetrahedron& tetrahedron, const std::string& text) const;
@@ -209,7 +216,7 @@ private:
 
 MshReader::MshReader(const std::filesystem::path& path, const TetrahedraOptions& options)
     : path_(path), stream_(path), layout_(read_layout(stream_)) {
-    choose_labels(count_tetrahedra(), options.array);
+    choose_labels(options.array);
     info_ = {.source = path.string(),
              .format = "msh",
              .has_cell_labels = !view_ || view_->is_cell,
@@ -220,18 +227,33 @@ MshReader::MshReader(const std::filesystem::path& path, const TetrahedraOptions&
     elements_.emplace(path, layout_);
 }
 
-/// Returns whether any tetrahedron is in a physical group.
-bool MshReader::count_tetrahedra() {
+MshReader::Tags MshReader::look_at_tags() const {
     std::uint64_t count = 0;
-    bool has_physical = false;
+    std::optional<std::int64_t> volume;
+    Tags tags;
     MshElements elements(path_, layout_);
-    for (MshTetrahedron tetrahedron; elements.next(tetrahedron); ++count) has_physical |= tetrahedron.physical != 0;
+    for (MshTetrahedron tetrahedron; elements.next(tetrahedron); ++count) {
+        tags.has_physical |= tetrahedron.physical != 0;
+        tags.has_one_volume &= tetrahedron.entity == volume.value_or(tetrahedron.entity);
+        volume = tetrahedron.entity;
+    }
     if (count == 0) formats::fail(path_, "has no tetrahedra: a surface model? mesh its volumes with Gmsh, gmsh -3");
-    return has_physical;
+    return tags;
 }
 
-/// Physical groups first, then a view whose name means regions, then volumes.
-void MshReader::choose_labels(bool has_physical, const std::string& wanted) {
+bool MshReader::has_whole_values(const MshView& view) {
+    try {
+        read_values(stream_, view);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+/// Physical groups first, then a view whose name means regions, or else the only view of elements where its values are
+/// whole and there is one volume, then volumes.
+void MshReader::choose_labels(const std::string& wanted) {
+    const auto [has_physical, has_one_volume] = look_at_tags();
     std::vector<MeshArray> arrays;
     if (has_physical) arrays.push_back({.name = kPhysical, .type = "tags"});
     arrays.push_back({.name = kGeometrical, .type = "tags"});
@@ -248,6 +270,11 @@ void MshReader::choose_labels(bool has_physical, const std::string& wanted) {
                 (!best || *region_rank(arrays[i].name) < *region_rank(arrays[*best].name)))
                 best = i;
         chosen = best.value_or(0);
+        // meshio writes the tags of other formats as views, and 0 as those of Gmsh: the only view is the labels.
+        std::size_t single = 0, only = 0;
+        for (std::size_t i = tag_arrays; i < arrays.size(); ++i)
+            if (arrays[i].components == 1 && arrays[i].is_cell) ++single, only = i;
+        if (!best && has_one_volume && single == 1 && has_whole_values(layout_.views[only - tag_arrays])) chosen = only;
     }
     if (chosen >= tag_arrays) {
         source_ = Source::kViews;

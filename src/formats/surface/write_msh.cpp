@@ -195,8 +195,8 @@ void MshWriter::write_volumes(const std::string& mesh_name, OutputFile& file) co
         volumes[region] += (volumes[region].empty() ? "" : ", ") + std::to_string(count);
     }
     for (const auto& [number, list] : volumes)
-        text.line("Physical Volume(\"" + regions_.all()[number - 1].word + "\", " + std::to_string(number) + ") = {" +
-                  list + "};");
+        text.line("Physical Volume(\"" + regions_.all()[number - 1].word + "\", " +
+                  std::to_string(regions_.tag(regions_.all()[number - 1])) + ") = {" + list + "};");
     text.flush();
 }
 

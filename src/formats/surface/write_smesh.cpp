@@ -14,7 +14,7 @@ namespace {
 void write_tables(const FileView& view, const FileRegions& regions, TextWriter& text) {
     text.line("# attribute of tetrahedra, label, name");
     for (const FileRegion& region : regions.all())
-        text.line("# region", regions.number(region.label), view.label_text(region.label), region.word);
+        text.line("# region", regions.tag(region), view.label_text(region.label), region.word);
     text.line("# marker of faces, labels on both sides; a marker above", regions.interfaces().size(),
               "stands for itself less a multiple of that");
     for (std::size_t n = 0; n < regions.interfaces().size(); ++n) {
@@ -100,7 +100,8 @@ void write_tetgen(const FileView& view, Facets facets, OutputFile& file) {
     text.line("# regions: a point in each of their parts, attribute, no bound of the volume");
     text.line(seeds.regions.size());
     for (std::size_t n = 0; n < seeds.regions.size(); ++n)
-        text.line(n + 1, seeds.regions[n].point, regions.number(seeds.regions[n].label), "-1");
+        text.line(n + 1, seeds.regions[n].point, regions.tag(regions.all()[regions.number(seeds.regions[n].label) - 1]),
+                  "-1");
     text.flush();
 }
 

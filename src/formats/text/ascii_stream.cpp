@@ -10,18 +10,32 @@ namespace regionmesh::formats {
 
 bool AsciiStream::take_number() {
     const auto word = words_.take_word();
-    const auto number = word ? parse_label(*word) : std::nullopt;
     if (!word) problem_ = "the numbers end early; the file is truncated, fetch it again";
+    if (word && is_real_) return take_real(*word);
+    const auto number = word ? parse_label(*word) : std::nullopt;
     if (word && !number) problem_ = "'" + shown(*word) + "' is no label; labels must be whole numbers";
     if (!number) return false;
     if (!range_of(type_).holds(*number, word->starts_with('-'))) {
         problem_ = "'" + shown(*word) + "' is no number of type " + to_string(type_) + "; correct it, or the type";
         return false;
     }
-    std::memcpy(number_, &*number, sizeof number_);
+    put(*number);
+    return true;
+}
+
+bool AsciiStream::take_real(std::string_view word) {
+    const auto number = parse_real(word);
+    if (!number) problem_ = "'" + shown(word) + "' is no finite number; labels must be whole numbers";
+    if (number) put(*number);
+    return number.has_value();
+}
+
+template <class Number>
+void AsciiStream::put(Number number) {
+    static_assert(sizeof number == sizeof number_);
+    std::memcpy(number_, &number, sizeof number_);
     number_place_ = 0;
     ++taken_;
-    return true;
 }
 
 bool AsciiStream::finish() {

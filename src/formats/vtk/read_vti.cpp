@@ -25,30 +25,35 @@ namespace {
 struct VtiHeader {
     Lattice lattice;  // of the samples: points, or centres of cells
     pugi::xml_node array;
-    SampleType type = SampleType::kU8;
+    SampleFormat format;
 };
 
-/// The active scalars, or else the only array of integers.
+/// The active scalars, or else the only array of integers, or of reals.
 pugi::xml_node choose_array(const VtkXml& xml, pugi::xml_node piece) {
     const std::vector<pugi::xml_node> all = arrays_of(piece, false);
     std::vector<MeshArray> arrays;
     for (const pugi::xml_node node : all) arrays.push_back(describe(node));
-    int count = 0;
-    for (const bool is_active_only : {true, false}) {
-        pugi::xml_node chosen;
-        count = 0;
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            if (!arrays[i].is_integer || arrays[i].components != 1) continue;
-            if (is_active_only && all[i].parent().attribute("Scalars").value() != arrays[i].name) continue;
-            chosen = all[i];
-            ++count;
+    std::size_t integers = 0;
+    for (const bool is_integer : {true, false}) {
+        for (const bool is_active_only : {true, false}) {
+            pugi::xml_node chosen;
+            std::size_t count = 0;
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                if (arrays[i].is_integer != is_integer || arrays[i].components != 1) continue;
+                if (is_active_only && all[i].parent().attribute("Scalars").value() != arrays[i].name) continue;
+                chosen = all[i];
+                ++count;
+            }
+            if (count == 1) return chosen;
+            if (is_integer) integers = count;
         }
-        if (count == 1) return chosen;
+        if (integers > 0) break;
     }
     xml.fail(fmt::format("has {}; its arrays: {}",
-                         count == 0 ? "no array of integers with one component, as labels need"
-                                    : "several arrays of integers; write a file with the labels only, or make "
-                                      "them the only active scalars",
+                         integers == 0 ? "no array of single numbers that could be labels, or several of reals; "
+                                         "write a file with the labels only"
+                                       : "several arrays of integers; write a file with the labels only, or make "
+                                         "them the only active scalars",
                          list_of(arrays)));
 }
 
@@ -88,14 +93,18 @@ void place_in_space(const VtkXml& xml, pugi::xml_node piece, bool is_cell, const
     set_affine(xml.path(), "map to space", "mend Origin, Spacing or Direction", columns, first, lattice);
 }
 
-/// Throws Error(kInput) naming the file: more than one piece, no array of integers, or several of which none is the
-/// active scalars.
+/// Throws Error(kInput) naming the file: more than one piece, no array that could be labels, or several of which none
+/// is the active scalars.
 VtiHeader read_vti_header(const VtkXml& xml, const ReadOptions& options) {
     const pugi::xml_node piece = xml.dataset().child("Piece");
     if (!piece || piece.next_sibling("Piece")) xml.fail("has no Piece, or several; write it as one piece");
     VtiHeader header;
     header.array = choose_array(xml, piece);
-    header.type = sample_type(*vtk_type(header.array));
+    const NumberType type = *vtk_type(header.array);
+    if (is_real(type))
+        header.format = real_format(type, xml.encoding().is_big_endian);
+    else
+        header.format = {sample_type(type), xml.encoding().is_big_endian};
     place_in_space(xml, piece, describe(header.array).is_cell, options, header.lattice);
     return header;
 }
@@ -106,22 +115,23 @@ std::unique_ptr<SectionReader> open_vti(const std::filesystem::path& path, const
     using Form = VtkArrayPlace::Form;
     const VtkXml xml(path, "ImageData");
     const VtiHeader header = read_vti_header(xml, options);
-    const SampleFormat format{header.type, xml.encoding().is_big_endian};
-    VolumeInfo info = volume_info(path, "vti", header.type, header.lattice.size);
+    const SampleFormat& format = header.format;
+    const std::uint64_t sample = sample_bytes(format);
+    VolumeInfo info = volume_info(path, "vti", format.type, header.lattice.size);
     info.lattice = header.lattice;
     NamesAndColours table = table_beside(path);
     info.names = std::move(table.names);
     info.colours = std::move(table.colours);
     info.warning = std::move(table.warning);
-    const std::uint64_t needed = volume_bytes(path, info.lattice.size, sample_bytes(header.type));
+    const std::uint64_t needed = volume_bytes(path, info.lattice.size, sample);
     const VtkArrayPlace place = xml.place_of(header.array);
     const std::uint64_t present = place.end - place.begin;
     if (place.form == Form::kAscii) {
-        const std::uint64_t count = needed / sample_bytes(header.type);
+        const std::uint64_t count = needed / sample;
         if (most_ascii_samples(present) < count)
             xml.fail(header.array, "has fewer numbers than its extent needs; write the file again");
-        return open_stream(std::make_unique<AsciiStream>(InputFile(path), header.type, count, place.begin, place.end),
-                           std::move(info), {.format = kAsciiFormat}, options);
+        return open_stream(std::make_unique<AsciiStream>(InputFile(path), format, count, place.begin, place.end),
+                           std::move(info), {.format = ascii_format(format)}, options);
     }
     const bool is_compressed = xml.encoding().is_compressed;
     if (is_compressed) check_inflated(path, present, needed);

@@ -1,11 +1,13 @@
 // Surfaces in VTK XML files: polygons in PolyData, or triangles, quads and polygons in an UnstructuredGrid.
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/header_text.h"
+#include "formats/vtk/label_array.h"
 #include "formats/vtk/vtk_numbers.h"
 
 namespace regionmesh {
@@ -145,6 +147,7 @@ FileSurface VtkSurfaceReader::read(bool is_grid) {
         if (is_grid) read_types(node, cells);
         read_faces(piece, node, cells);
     }
+    if (surface_.is_by_region && !surface_.background) surface_.background.emplace();
     return std::move(surface_);
 }
 
@@ -176,10 +179,17 @@ void VtkSurfaceReader::read_types(pugi::xml_node cells, std::uint64_t count) con
 /// All triangles of a cell get its labels.
 void VtkSurfaceReader::read_faces(pugi::xml_node piece, pugi::xml_node cells, std::uint64_t count) {
     const pugi::xml_node label_node = label_array(piece);
+    const std::uint64_t sides = label_node ? components(label_node) : 0;
+    if (sides != 2) {  // a region behind each face, and the exterior in front of it
+        surface_.is_by_region = true;
+        surface_.has_shared_points = false;
+    }
     surface_.is_unsigned |= std::string_view(label_node.attribute("type").value()) == "UInt64";
     VtkNumbers offsets = integers_of(xml_, xml_.required_array(cells, "offsets"), count),
-               connectivity = integers_of(xml_, xml_.required_array(cells, "connectivity"), std::nullopt),
-               labels = integers_of(xml_, label_node, 2 * count);
+               connectivity = integers_of(xml_, xml_.required_array(cells, "connectivity"), std::nullopt);
+    std::optional<VtkNumbers> labels;
+    if (sides == 2) labels.emplace(integers_of(xml_, label_node, sides * count));
+    if (sides == 1) labels.emplace(xml_, label_node, count);
     const std::uint64_t points = surface_.points.size() - first_point_;
     std::vector<std::uint32_t> corners;
     std::int64_t begin = 0;
@@ -194,20 +204,35 @@ void VtkSurfaceReader::read_faces(pugi::xml_node piece, pugi::xml_node cells, st
                 xml_.fail(fmt::format("cell {} names point {} of {}", cell, corner, points));
             corners.push_back(static_cast<std::uint32_t>(first_point_ + static_cast<std::uint64_t>(corner)));
         }
-        const InputLabel first = labels.integer();
-        add_polygon(surface_, corners, {first, labels.integer()}, xml_.path());
+        constexpr InputLabel kOnlyRegion = 1;
+        const InputLabel first = labels ? labels->integer() : kOnlyRegion;
+        add_polygon(surface_, corners, {first, sides == 2 ? labels->integer() : surface_.exterior_label}, xml_.path());
     }
-    for (VtkNumbers* numbers : {&offsets, &connectivity, &labels}) numbers->finish();
+    for (VtkNumbers* numbers : {&offsets, &connectivity}) numbers->finish();
+    if (labels) labels->finish();
 }
 
+/// The labels on the two sides of each face; else those of the regions behind them: an array of one number a cell with
+/// a name that means regions. An empty node where there is none: then all faces belong to one region.
 pugi::xml_node VtkSurfaceReader::label_array(pugi::xml_node piece) const {
+    const pugi::xml_node data = piece.child("CellData");
     for (const char* name : kLabelArrays) {
-        const pugi::xml_node array = array_named(piece.child("CellData"), name);
-        if (array && components(array) != 2)
-            xml_.fail(fmt::format("its cell array '{}' has {} components: 2 are needed", name, components(array)));
+        const pugi::xml_node array = array_named(data, name);
+        if (array && components(array) != 2 && components(array) != 1)
+            xml_.fail(
+                fmt::format("its cell array '{}' has {} components: 2 are needed, the labels on the two sides of "
+                            "a face, or 1, that of the region behind it",
+                            name, components(array)));
         if (array) return array;
     }
-    xml_.fail("needs the cell array 'BoundaryLabels': two integers a face, the labels on its two sides");
+    pugi::xml_node best;
+    for (const pugi::xml_node array : data.children("DataArray")) {
+        const auto rank = region_rank(array.attribute("Name").value());
+        const auto type = vtk_type(array);
+        if (!rank || !type || is_real(*type) || components(array) != 1) continue;
+        if (!best || *rank < *region_rank(best.attribute("Name").value())) best = array;
+    }
+    return best;
 }
 
 }  // namespace

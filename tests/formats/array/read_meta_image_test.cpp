@@ -77,10 +77,9 @@ TEST_F(ReadMetaImageTest, table_beside_the_file_names_labels) {
 }
 
 TEST_F(ReadMetaImageTest, bad_files_are_refused_and_say_why) {
-    EXPECT_THAT(refusal({data("meta/bad/float32.mha")}),
-                HasSubstr("ElementType is 'MET_FLOAT': labels must be integers"));
+    EXPECT_EQ(read_volume({data("meta/bad/float32.mha")}).labels, expected(SampleType::kU8));
     EXPECT_THAT(refusal({data("meta/bad/channels.mha")}), HasSubstr("has 3 channels a sample"));
-    EXPECT_THAT(refusal({data("meta/bad/two_volumes.mha")}), HasSubstr("holds several volumes"));
+    EXPECT_THAT(refusal({data("meta/bad/two_volumes.mha")}), HasSubstr("holds 2 volumes (axis 4 of DimSize)"));
     const std::tuple<std::string, std::string, std::string> cases[] = {
         {"5 4 3", "5 4 0", "empty volume"},
         {"5 4 3", "5 4", "DimSize is '5 4'"},

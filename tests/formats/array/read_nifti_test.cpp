@@ -112,27 +112,38 @@ TEST_F(ReadNiftiTest, zooms_that_are_no_lengths_are_refused_unless_the_spacing_i
     }
 }
 
+TEST_F(ReadNiftiTest, whole_reals_are_labels) {
+    for (const char* name : {"nifti/bad/float32.nii", "nifti/bad/float64.nii.gz"})
+        EXPECT_EQ(read_volume({data(name)}).labels, expected(SampleType::kU8)) << name;
+}
+
 TEST_F(ReadNiftiTest, samples_that_are_no_integers_are_refused_by_name) {
-    EXPECT_THAT(refusal({data("nifti/bad/float32.nii")}), HasSubstr("float32.nii: samples are float32 (datatype 16)"));
-    EXPECT_THAT(refusal({data("nifti/bad/float64.nii.gz")}), HasSubstr("samples are float64"));
     EXPECT_THAT(refusal({data("nifti/bad/complex64.nii")}), HasSubstr("samples are complex"));
     EXPECT_THAT(refusal({patched_value<std::int16_t>(70, 128)}), HasSubstr("colours"));
     EXPECT_THAT(refusal({patched_value<std::int16_t>(70, 1)}), HasSubstr("single bits"));
     EXPECT_THAT(refusal({patched_value<std::int16_t>(70, 77)}), HasSubstr("datatype 77"));
 }
 
-TEST_F(ReadNiftiTest, more_than_one_volume_is_refused) {
-    EXPECT_THAT(refusal({data("nifti/bad/two_volumes.nii")}), HasSubstr("holds 2 volumes (dim[4])"));
+TEST_F(ReadNiftiTest, one_of_several_volumes_is_chosen) {
+    const auto file = data("nifti/bad/two_volumes.nii");
+    EXPECT_THAT(refusal({file}), HasSubstr("holds 2 volumes (dim[4]); choose one with --layer 0 to 1"));
+    ReadOptions second;
+    second.layer = 1;
+    EXPECT_EQ(read_volume({file}, second).labels.size(), 60u);
+    second.layer = 2;
+    EXPECT_THAT(refusal({file}, second), HasSubstr("there is no 2"));
 }
 
-TEST_F(ReadNiftiTest, scaled_samples_are_refused_but_no_scaling_is_not) {
-    EXPECT_THAT(refusal({patched_value<float>(112, 2)}), HasSubstr("scl_slope 2"));
+TEST_F(ReadNiftiTest, scaled_samples_are_labels_where_they_are_whole) {
+    EXPECT_EQ(read_volume({patched_value<float>(112, 2)}).labels, expected([](InputLabel v) { return 2 * v; }));
+    EXPECT_THAT(refusal({patched_value<float>(112, 0.5)}),
+                HasSubstr("section 0: sample (0, 1, 0) is 2.5, and labels are whole numbers"));
     const auto unit = patched_value<float>(112, 1);
     EXPECT_EQ(read_volume({unit}).labels, expected(SampleType::kU8));
     std::string text = text_of(unit);
     text.replace(116, 4, std::string("\x00\x00\x80\x3f", 4));  // scl_inter 1
     put_text(unit, text);
-    EXPECT_THAT(refusal({unit}), HasSubstr("scl_inter 1"));
+    EXPECT_EQ(read_volume({unit}).labels, expected([](InputLabel v) { return v + 1; }));
     EXPECT_EQ(read_volume({patched_value<float>(112, 0)}).labels, expected(SampleType::kU8));
 }
 
@@ -224,9 +235,9 @@ TEST_F(ReadNiftiTest, gzip_can_rewind_in_the_middle) {
     EXPECT_EQ(pull(*reader), expected(SampleType::kU8));
 }
 
-TEST_F(ReadNiftiTest, pair_of_header_and_image_is_refused) {
+TEST_F(ReadNiftiTest, half_of_a_pair_is_refused) {
     put_text(path("a.hdr"), "x");
-    EXPECT_THAT(refusal({path("a.hdr")}), HasSubstr("join them into one .nii"));
+    EXPECT_THAT(refusal({path("a.hdr")}), HasSubstr("is half of a pair"));
 }
 
 }  // namespace

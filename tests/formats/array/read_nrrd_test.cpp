@@ -180,8 +180,12 @@ TEST_F(ReadNrrdTest, names_of_types_are_read_in_all_spellings) {
         EXPECT_EQ(read_volume({nrrd("uint8", type)}).labels, expected(SampleType::kU8)) << type;
 }
 
+TEST_F(ReadNrrdTest, whole_reals_are_labels) {
+    EXPECT_EQ(read_volume({data("nrrd/bad/float32.nrrd")}).labels, expected(SampleType::kU8));
+}
+
 TEST_F(ReadNrrdTest, bad_files_are_refused_and_say_why) {
-    EXPECT_THAT(refusal({data("nrrd/bad/float32.nrrd")}), HasSubstr("samples are 'float'; labels must be integers"));
+    EXPECT_THAT(refusal({nrrd("uint8", "block")}), HasSubstr("samples are 'block'; labels must be integers"));
     EXPECT_THAT(refusal({data("nrrd/bad/bzip2.nrrd")}),
                 HasSubstr("encoding 'bzip2' is not read; write it with gzip or raw"));
     EXPECT_THAT(refusal({data("nrrd/bad/hex.nrrd")}), HasSubstr("encoding 'hex'"));

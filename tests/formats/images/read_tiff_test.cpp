@@ -76,11 +76,12 @@ TEST_F(ReadTiffTest, imagej_stack_cut_short_or_of_several_channels_is_refused) {
     const std::string whole = text_of(data("tiff/imagej_uint16.tif"));
     put_text(path("cut.tif"), whole.substr(0, whole.size() - 45));
     EXPECT_THAT(refusal({path("cut.tif")}), AllOf(HasSubstr("cut.tif: section "), HasSubstr("truncated")));
-    EXPECT_THAT(refusal({data("tiff/bad/imagej_channels.tif")}), HasSubstr("3 channels"));
+    EXPECT_THAT(refusal({data("tiff/bad/imagej_channels.tif")}),
+                HasSubstr("has 3 channels; choose one with --layer 0 to 2"));
 }
 
-TEST_F(ReadTiffTest, float_samples_are_refused) {
-    EXPECT_THAT(refusal({data("tiff/bad/float32.tif")}), HasSubstr("float32.tif: section 0: samples are float"));
+TEST_F(ReadTiffTest, whole_reals_are_labels) {
+    EXPECT_EQ(read_volume({data("tiff/bad/float32.tif")}).labels, expected(SampleType::kU8));
 }
 
 TEST_F(ReadTiffTest, size_that_the_file_cannot_back_is_refused_before_anything_is_allocated) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "formats/surface/written_meshes.h"
+#include "regionmesh/error.h"
 
 namespace regionmesh {
 namespace {

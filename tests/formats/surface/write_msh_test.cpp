@@ -23,8 +23,8 @@ TEST_F(WriterTest, geo_makes_a_volume_of_each_part_with_its_cavities) {
     EXPECT_THAT(text, HasSubstr("Merge \"m.msh\";\n"));
     EXPECT_THAT(text, HasSubstr("Surface Loop(1) = {2};\nSurface Loop(3) = {1};\nVolume(1) = {1, 3};\n"));
     EXPECT_THAT(text, HasSubstr("= {-1};\n")) << "region 7 sees the interface from behind";
-    EXPECT_THAT(text, HasSubstr("Physical Volume(\"region_5\", 1) = {1, 3};\n"));
-    EXPECT_THAT(text, HasSubstr("Physical Volume(\"core\", 2) = {2};\n"));
+    EXPECT_THAT(text, HasSubstr("Physical Volume(\"region_5\", 5) = {1, 3};\n"));
+    EXPECT_THAT(text, HasSubstr("Physical Volume(\"core\", 7) = {2};\n"));
 }
 
 TEST_F(WriterTest, msh_names_the_sides_of_the_box) {

@@ -35,7 +35,7 @@ TEST_F(WriterTest, smesh_has_a_seed_for_each_part_of_each_region) {
     for (std::size_t n = 0; n < 3; ++n) {
         const auto& seed = parts[3][n];
         ASSERT_EQ(seed.size(), 6u);
-        EXPECT_EQ(seed[4], n < 2 ? "1" : "2") << "attribute";
+        EXPECT_EQ(seed[4], n < 2 ? "5" : "7") << "the label is the attribute";
         EXPECT_EQ(seed[5], "-1") << "no bound of the volume";
     }
     const double radius =
@@ -47,13 +47,13 @@ TEST_F(WriterTest, smesh_has_a_hole_for_background_that_is_enclosed) {
     const auto parts = parts_of(rows_of(written(nested(), nested_labels(), "m.smesh", {.background = {2, 1}})));
     ASSERT_EQ(parts[2].size(), 1u);
     EXPECT_EQ(parts[3].size(), 2u);
-    for (const auto& seed : parts[3]) EXPECT_EQ(seed[4], "1");
+    for (const auto& seed : parts[3]) EXPECT_EQ(seed[4], parts[3][0][4]);
 }
 
 TEST_F(WriterTest, smesh_table_says_what_numbers_mean) {
     const std::string text =
         written(nested(), nested_labels(), "m.smesh", {.background = {2}, .names = {{7, "the core"}}});
-    EXPECT_THAT(text, HasSubstr("# region 1 5 region_5\n# region 2 7 the_core\n"));
+    EXPECT_THAT(text, HasSubstr("# region 5 5 region_5\n# region 7 7 the_core\n"));
     EXPECT_THAT(text, HasSubstr("# interface 1 5 7\n# interface 2 5 0\n"));
 }
 

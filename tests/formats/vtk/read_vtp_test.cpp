@@ -111,7 +111,6 @@ TEST_F(ReadVtp, unsigned_labels_keep_their_bits) {
 
 TEST_F(ReadVtp, errors_name_what_is_wrong) {
     const std::tuple<std::string, std::string, std::string> cases[] = {
-        {"Name=\"BoundaryLabels\"", "Name=\"Other\"", "needs the cell array 'BoundaryLabels'"},
         {"Components=\"2\"", "Components=\"3\"", "has 3 components: 2 are needed"},
         {"Int16", "Float64", "array 'BoundaryLabels': has type 'Float64': integers are needed"},
         {"3 5<", "3<", "array 'BoundaryLabels': has 1 numbers, and more are needed"},
