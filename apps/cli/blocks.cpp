@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -26,6 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 BlockTasks* shared_tasks = nullptr;
+
+std::vector<fs::path> made;  // see made_folders()
 
 /// Options that do not change the model: a run may go on with others.
 constexpr std::array<std::string_view, 13> kFree{"input",   "output",     "threads",        "memory", "memory-limit",
@@ -75,6 +79,16 @@ std::string state_of(const fs::path& path, const std::vector<fs::path>& own = {}
     return fmt::format("{} files, {} bytes, state {:016x}", files, bytes, states);
 }
 
+/// A hash of what is in a file, up to a size that takes no time to read: a header, a table. Empty for others.
+std::string content_of(const fs::path& path) {
+    constexpr std::uintmax_t kMostBytes = 1 << 20;
+    std::error_code missing;
+    if (!fs::is_regular_file(path, missing) || fs::file_size(path, missing) > kMostBytes || missing) return {};
+    std::ifstream stream(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    return fmt::format(", content {:016x}", hash_of(text));
+}
+
 /// What a volume in files says besides its samples; some of it comes from files beside or above its own.
 std::optional<VolumeInfo> info_of_volume(const Settings& settings) {
     if (kind_of_input(settings.inputs) != kVolumeInput || settings.inputs.front() == "-") return {};
@@ -84,11 +98,13 @@ std::optional<VolumeInfo> info_of_volume(const Settings& settings) {
     return open_sections({settings.inputs.begin(), settings.inputs.end()}, options)->info();
 }
 
-std::string text_of(const Lattice& lattice, Space space) {
+std::string lattice_text(const VolumeInfo& info) {
+    const Lattice& lattice = info.lattice;
     const auto text = [](const Vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
-    return fmt::format("{} samples, spacing {}, origin {}, axes {}, space '{}'", fmt::join(lattice.size, " x "),
-                       text(lattice.spacing), text(lattice.origin), fmt::join(lattice.direction, " "),
-                       space_name(space));
+    return fmt::format("{} samples, spacing {}, origin {}, axes {}, space '{}', {} m a unit, sweep {}",
+                       fmt::join(lattice.size, " x "), text(lattice.spacing), text(lattice.origin),
+                       fmt::join(lattice.direction, " "), space_name(info.space), info.metres.value_or(0),
+                       fmt::join(info.sweep.axes, " "));
 }
 
 std::string text_of(const LabelNames& names, const LabelColours& colours) {
@@ -107,7 +123,8 @@ RunIdentity identity_of(const Settings& settings) {
     std::vector<fs::path> own{fs::weakly_canonical(folder_of(settings.output), ignored)};
     if (!settings.log.empty()) own.push_back(fs::weakly_canonical(settings.log, ignored));
     const auto add = [&](const std::string& name, const fs::path& path, const std::string& inside = "") {
-        identity.emplace_back(name, fmt::format("{}{}, {}", path.filename().string(), inside, state_of(path, own)));
+        identity.emplace_back(
+            name, fmt::format("{}{}, {}{}", path.filename().string(), inside, state_of(path, own), content_of(path)));
     };
     for (std::size_t n = 0; n < settings.inputs.size(); ++n) {
         const fs::path file = file_of_input(settings.inputs[n]);
@@ -115,7 +132,7 @@ RunIdentity identity_of(const Settings& settings) {
     }
     if (const auto info = info_of_volume(settings)) {
         for (std::size_t n = 0; n < info->files.size(); ++n) add(fmt::format("samples {}", n + 1), info->files[n]);
-        identity.emplace_back("lattice", text_of(info->lattice, info->space));
+        identity.emplace_back("lattice", lattice_text(*info));
         if (settings.names.empty())
             identity.emplace_back("names in or beside the input", text_of(info->names, info->colours));
     }
@@ -152,6 +169,12 @@ void require_fit_of_blocks(const Settings& settings) {
                     settings.inputs.front() + ": blocks are for sections; name a file for the model in --output");
 }
 
+void note_missing(const std::vector<fs::path>& folders) {
+    std::error_code missing;
+    for (const fs::path& folder : folders)
+        if (!fs::exists(folder, missing)) made.push_back(folder);
+}
+
 /// The volume, with the names that --names gives.
 std::unique_ptr<SectionReader> open_described(const Settings& settings) {
     auto reader = open_volume(settings, settings.inputs);
@@ -171,6 +194,15 @@ void print_summary(const Settings& settings, const BlockReport& report) {
         counted(report.final_faces, "face"), counted(report.final_vertices, "vertex"), grouped(report.initial_faces),
         counted(report.pieces, "piece"), report.block_cells, counted(report.made, "block"),
         has_other_processes() ? " by this process" : "", report.found);
+    Report checked;
+    checked.check = report.check;
+    checked.samples = report.samples;
+    checked.samples_in_room = settings.reconstruct.room > 0;
+    print_violations(report.check, 0);
+    print_certificate(checked);
+    if (!report.samples && settings.reconstruct.cap)
+        say("samples not compared: they are no longer there, or a section does not fit in --memory; regionmesh check "
+            "--sections does it");
     say("written: {}; {:.2f} s, {} MB of memory", printable(settings.output), report.seconds,
         grouped(report.peak_bytes / 1000000));
 }
@@ -216,10 +248,19 @@ void make_block_folder(const Settings& settings, std::uint32_t command) {
             require_fit_of_pieces(settings);
         else if (!fs::is_directory(model) && !has_extension(model, readable_extensions()))
             return;
+        note_missing({folder, folder / "names"});
         return make_precomputed_folder(folder);
     }
     require_folder_name(settings.output);
+    note_missing({folder});
     make_folder(folder);
+}
+
+const std::vector<fs::path>& made_folders() { return made; }
+
+void remove_empty_folders() {
+    std::error_code ignored;  // of those that are not empty
+    for (auto folder = made.rbegin(); folder != made.rend(); ++folder) fs::remove(*folder, ignored);
 }
 
 void share_blocks(BlockTasks& tasks) { shared_tasks = &tasks; }
@@ -255,11 +296,11 @@ int run_blocks(const Settings& settings) {
             line.show(shown);
         });
     line.clear();
-    if (tasks.is_first()) {
-        warn_of_passes(settings);
-        print_summary(settings, report);
-    }
-    return kGood;
+    if (!tasks.is_first()) return kGood;
+    warn_of_passes(settings);
+    print_summary(settings, report);
+    const bool has_lost = settings.reconstruct.keep_samples && report.samples && report.samples->wrong > 0;
+    return has_lost ? kViolations : exit_code(report.check);
 }
 
 }  // namespace regionmesh::cli

@@ -1,6 +1,9 @@
 // Models in pieces.
 #pragma once
 
+#include <filesystem>
+#include <vector>
+
 #include "regionmesh/blocks.h"
 #include "regionmesh/options.h"
 
@@ -21,6 +24,12 @@ void require_fit_of_pieces(const Settings& settings);
 /// Makes the folder of pieces, or one .precomputed, if `command` writes one: a confined process cannot. Throws
 /// Error(kOutput) where it cannot be made.
 void make_block_folder(const Settings& settings, std::uint32_t command);
+
+/// The folders that it made, each before those in it.
+const std::vector<std::filesystem::path>& made_folders();
+
+/// Removes those of them that are empty: a command that fails leaves none.
+void remove_empty_folders();
 
 /// Shares the blocks of the run with other processes. Once called, reconstruct writes folders only.
 void share_blocks(BlockTasks& tasks);

@@ -55,7 +55,10 @@ void add_option(CLI::App& command, const OptionSpec& spec, bool has_config, Text
 std::optional<SandboxState> confine(const Settings& settings, std::uint32_t command) {
     make_block_folder(settings, command);
     if (!settings.sandbox) return std::nullopt;
-    const SandboxState state = enter_sandbox(sandbox_rules(settings));
+    SandboxRules rules = sandbox_rules(settings);
+    for (const std::filesystem::path& folder : made_folders())
+        rules.emptied.push_back(folder.has_parent_path() ? folder.parent_path() : ".");
+    const SandboxState state = enter_sandbox(rules);
     if (settings.needs_sandbox && !(state.files && state.calls))
         throw Error(ErrorCode::kInput, std::string("--require-sandbox: this kernel has no ") +
                                            (state.files ? "seccomp" : "Landlock") +
@@ -91,11 +94,16 @@ void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Set
             require_distinct_files(settings);
             silence_others(settings);
             begin_messages(command.command, settings);
-            const std::optional<SandboxState> confined = confine(settings, command.command);
-            remove_outputs_on_signals();  // its thread is confined, too
-            const int code = run(settings);
-            say_confined(confined);
-            return code;
+            try {
+                const std::optional<SandboxState> confined = confine(settings, command.command);
+                remove_outputs_on_signals();  // its thread is confined, too
+                const int code = run(settings);
+                say_confined(confined);
+                return code;
+            } catch (...) {
+                remove_empty_folders();
+                throw;
+            }
         };
     });
 }

@@ -7,6 +7,7 @@
 #include "advice.h"
 #include "commands.h"
 #include "input.h"
+#include "messages.h"
 #include "output.h"
 #include "printable.h"
 #include "regionmesh/blocks.h"
@@ -144,8 +145,10 @@ std::string print_input(const Settings& settings) {
         print_layers(settings);
     }
     return with_reader(settings, settings.inputs, [&](auto& reader) {
+        const std::string warned = reader.info().warning;
         std::string json = print_info(settings, reader);
-        warn_of_grey_scale(settings, reader);
+        warn_of_rest(reader, warned);
+        if (const std::string warning = warning_of_grey_scale(settings, reader); !warning.empty()) warn(warning);
         return json;
     });
 }

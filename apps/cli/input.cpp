@@ -34,6 +34,12 @@ std::unique_ptr<Reader> with_warning(std::unique_ptr<Reader> reader) {
 
 }  // namespace
 
+void warn_of_rest(const SectionReader& reader, const std::string& before) {
+    const VolumeInfo& info = reader.info();
+    if (info.warning != before && info.warning.starts_with(before))
+        warn(info.source + ": " + info.warning.substr(before.empty() ? 0 : before.size() + 2));
+}
+
 std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::vector<std::string>& inputs) {
     return with_warning(open_lattice(settings, inputs));
 }

@@ -28,6 +28,10 @@ auto with_reader(const Settings& settings, const std::vector<std::string>& input
     return visit(*open_volume(settings, inputs));
 }
 
+/// What a reader found out while it read, where `before` is what it warned of when it was opened.
+void warn_of_rest(const SectionReader& reader, const std::string& before);
+inline void warn_of_rest(const TetrahedronReader&, const std::string&) {}
+
 /// Whether a path ends in one of ".vtp .vtu .ply", in capitals or not.
 bool has_extension(const std::string& path, const std::string& extensions);
 

@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include "advice.h"
 #include "blocks.h"
@@ -129,17 +131,21 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, co
     ProgressLine line(settings.quiet);
     MemoryWarning memory(settings);
     return with_reader(settings, settings.inputs, [&](auto& reader) {
+        const std::string warned = reader.info().warning;
         LabelColours colours;
         if constexpr (requires { reader.info().colours; }) colours = reader.info().colours;
         notes.labels = describe(settings, reader.info().names, colours);
         notes.coordinates = with_units_and_space(settings, coordinates_of(reader.info()));
-        warn_of_grey_scale(settings, reader);
+        std::string grey = warning_of_grey_scale(settings, reader);
         const auto on_progress = [&](const Progress& progress) {
+            // Once it is counted: a run that is refused says that alone.
+            if (!grey.empty() && std::string_view(progress.stage) != "count") warn(std::exchange(grey, {}));
             memory.show(progress);
             line.show(progress);
         };
         Reconstruction made = reconstruct(reader, settings.reconstruct, on_progress, on_model);
         line.clear();
+        warn_of_rest(reader, warned);
         return made;
     });
 }

@@ -66,7 +66,9 @@ struct BlockReport {
     std::uint32_t made = 0, found = 0;  // pieces of all passes: by this process, and complete from an earlier run
     StopReason stopped = StopReason::kNoneAsked;
     double error_bound = 0;
-    std::uint64_t peak_bytes = 0;  // of this process
+    CheckReport check = {};                       // of the whole model, by the first process
+    std::optional<SampleAgreement> samples = {};  // likewise; none where they are no longer there, or do not fit
+    std::uint64_t peak_bytes = 0;                 // of this process
     double seconds = 0;
 };
 
@@ -76,9 +78,12 @@ void require_block_options(const ReconstructOptions& options);
 /// Reconstructs and simplifies the volume block by block, and writes the model into a folder of pieces with a manifest
 /// (docs/explanation/blocks.md). A run that was ended at any moment goes on: complete pieces are not made again. The
 /// bytes of the folder depend on the input and the options only, not on interruptions, threads or processes. Reads the
-/// input once, section by section. Throws Error(kInput) where the folder belongs to a run of another input or other
-/// options, or the input changed meanwhile, Error(kOutput) where another run works in it, and whatever
-/// require_block_options() and the reader throw.
+/// input three times, section by section: to count, to make faces, and to compare its samples with the model, which is
+/// checked piece by piece, as one that is complete is when the run is given again. What is in the folder may come from
+/// anywhere: it is validated, and samples that are read again are compared with hashes of those that the run was begun
+/// with. Throws Error(kInput) where the folder belongs to a run of another input or other options, or is damaged, or
+/// the input changed meanwhile, Error(kOutput) where another run works in it, and whatever require_block_options() and
+/// the reader throw.
 BlockReport reconstruct_blocks(const std::function<std::unique_ptr<SectionReader>()>& open,
                                const ReconstructOptions& options, const BlockOptions& blocks, BlockTasks& tasks,
                                const std::function<void(const BlockProgress&)>& on_progress = {});

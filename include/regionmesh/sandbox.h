@@ -12,6 +12,7 @@ struct SandboxRules {
     std::vector<std::filesystem::path> readable = {};  // files and folders, where it may not read anything
     std::vector<std::filesystem::path> writable = {};  // folders in which files may be made, replaced and removed, and
                                                        // files and devices; what does not exist is left out
+    std::vector<std::filesystem::path> emptied = {};   // folders out of which empty folders may be removed
     bool starts_programs = false;                      // those that `runnable` names
     std::vector<std::filesystem::path> runnable = {};  // programs, as files
 };

@@ -97,6 +97,7 @@ bool confine_files(const SandboxRules& rules) {
     const Ruleset ruleset(handled);
     for (const fs::path& path : rules.readable) ruleset.allow(path.c_str(), kReadRights);
     for (const fs::path& path : rules.writable) ruleset.allow(path.c_str(), kFolderRights);
+    for (const fs::path& path : rules.emptied) ruleset.allow(path.c_str(), LANDLOCK_ACCESS_FS_REMOVE_DIR);
     for (const fs::path& path : rules.runnable) ruleset.allow(path.c_str(), LANDLOCK_ACCESS_FS_EXECUTE);
     if (!rules.runnable.empty()) allow_loader(ruleset);
     return ruleset.enter();

@@ -3,19 +3,24 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 #include <span>
 #include <vector>
 
 #include "base/fingerprint.h"
+#include "base/megabytes.h"
 #include "blocks/block_size.h"
 #include "blocks/manifest.h"
 #include "blocks/own_faces.h"
 #include "blocks/survey.h"
+#include "blocks/survey_parts.h"
 #include "formats/input_file.h"
 #include "formats/part_files.h"
+#include "regionmesh/census.h"
 #include "regionmesh/error.h"
+#include "stream/footprint.h"
 #include "stream/plan.h"
 #include "stream/section_faces.h"
 #include "stream/stage_options.h"
@@ -69,6 +74,7 @@ struct Input {
         require_cells(info);
         shape = section_shape(info, cell_kind(options), section_scale(info, options));
         is_in_place = can_crop(sections());
+        require_room_for_section(options);
         survey.strips.cap = options.cap;
         survey.strips.cells = shape.cells;
         survey.background = options.background;
@@ -76,12 +82,28 @@ struct Input {
 
     SectionReader& sections() { return cleaned ? static_cast<SectionReader&>(*cleaned) : *file; }
 
-    /// Parts that are surveyed by themselves: for memory, and to share the work.
-    std::vector<IndexBox> boxes(const ReconstructOptions& options, std::uint32_t processes) const {
+    /// Two sections of an input that cannot be read in place, and what its reader holds.
+    void require_room_for_section(const ReconstructOptions& options) const {
+        if (is_in_place) return;
+        const auto [u, v, w] = info.sweep.axes;
+        const std::uint64_t section = std::uint64_t{info.lattice.size[u]} * info.lattice.size[v];
+        const std::uint64_t needed = kProcessBytes + info.held_bytes + section * kSurveyBytesPerSample;
+        if (needed > options.memory)
+            throw Error(ErrorCode::kInput, memory_limit_text(options.memory) + ": " + info.source + " needs at least " +
+                                               megabytes(needed) + " to be read; raise --memory, or change --sweep");
+    }
+
+    /// Parts that are surveyed by themselves: for memory, to share the work, and so that a run that was ended goes on
+    /// with the part that it was at.
+    std::vector<IndexBox> parts(const ReconstructOptions& options, std::uint32_t processes) const {
         constexpr std::uint32_t kPartsPerProcess = 4;
-        if (!is_in_place) return {};
-        return survey_boxes(info, options.memory / 2 / kSurveyBytesPerSample,
-                            processes > 1 ? processes * kPartsPerProcess : 1);
+        constexpr double kPartSamples = 1 << 22;  // a second or less
+        constexpr double kMostParts = 1000;
+        const auto& size = info.lattice.size;
+        const double parts = std::min(double(size[0]) * size[1] * size[2] / kPartSamples, kMostParts);
+        return survey_boxes(
+            info, options.memory / 2 / kSurveyBytesPerSample,
+            std::max(processes > 1 ? processes * kPartsPerProcess : 1, static_cast<std::uint32_t>(parts)));
     }
 
     std::unique_ptr<SectionReader> file;
@@ -93,38 +115,16 @@ struct Input {
     SurveyOptions survey = {};
 };
 
-/// A part of a survey on its way from the process that made it to the first: numbers of 64 bits. Its name says which
-/// samples: a run that goes on may have another number of processes, or other --memory.
-fs::path part_path(const fs::path& folder, const IndexBox& box) {
-    return folder / fmt::format("{}{}-{}.part", kSurveyPart, fmt::join(box.low, "-"), fmt::join(box.high, "-"));
-}
-
-void write_part(const PartSurvey& part, const fs::path& path, const OutputOptions& options) {
-    OutputFile file(path, options);
-    file.write({reinterpret_cast<const char*>(&part.faces), sizeof part.faces});
-    file.write({reinterpret_cast<const char*>(part.labels.data()), part.labels.size() * sizeof part.labels[0]});
-    file.commit();
-}
-
-PartSurvey read_part(const fs::path& path) {
-    const formats::InputFile file(path);
-    PartSurvey part;
-    if (file.size() < sizeof part.faces) formats::fail(path, "the file ends early; remove the folder, and run again");
-    part.labels.resize((file.size() - sizeof part.faces) / sizeof part.labels[0]);
-    const auto labels = std::as_writable_bytes(std::span(part.labels));
-    if (file.read(0, std::as_writable_bytes(std::span(&part.faces, 1))) != sizeof part.faces ||
-        file.read(sizeof part.faces, labels) != labels.size())
-        formats::fail(path, "the file ends early; remove the folder, and run again");
-    return part;
-}
-
 /// Surveys the boxes whose parts are not there, shared with other processes.
-void survey_parts(const OpenSections& open, const std::vector<IndexBox>& boxes, const SurveyOptions& survey,
+void survey_parts(const OpenSections& open, const Input& input, const std::vector<IndexBox>& boxes,
                   const BlockOptions& blocks, BlockTasks& tasks, const OnBlocks& on_progress) {
+    const SurveyOptions& survey = input.survey;
+    const VolumeInfo& volume = input.info;
     const auto count = static_cast<std::uint32_t>(boxes.size());
     while (const auto task = tasks.next(count)) {
         const fs::path path = part_path(blocks.folder, boxes[*task]);
-        if (!fs::exists(path)) write_part(survey_part(open, boxes[*task], survey), path, blocks.output);
+        if (!find_part(path, volume, boxes[*task]))
+            write_part(survey_part(open, boxes[*task], survey), path, blocks.output);
         if (on_progress) on_progress({"read", *task + 1, count});
     }
     tasks.end_phase();
@@ -132,21 +132,91 @@ void survey_parts(const OpenSections& open, const std::vector<IndexBox>& boxes, 
 
 Survey join_parts(const Input& input, const std::vector<IndexBox>& boxes, const fs::path& folder) {
     std::vector<PartSurvey> parts;
-    for (const IndexBox& box : boxes) parts.push_back(read_part(part_path(folder, box)));
+    for (const IndexBox& box : boxes) {
+        const fs::path path = part_path(folder, box);
+        auto part = find_part(path, input.info, box);
+        if (!part) formats::fail(path, "is missing or damaged; remove the folder, and run again");
+        parts.push_back(std::move(*part));
+    }
     return join_surveys(input.info, input.survey.background, parts);
 }
 
-/// Reads the input from one end to the other, and copies what cannot be read in any order.
-Survey survey_whole(Input& input, const BlockOptions& blocks, const OnBlocks& on_progress) {
+/// A copy of the samples of an input that cannot be read in place: in the folder, with its labels and hashes.
+struct CopiedVolume {
+    LabelTable labels;
+    std::uint64_t hashes;  // fingerprint
+};
+
+/// Says that the copy is complete, until all blocks are reconstructed: what its labels and its hashes are.
+fs::path copied_path(const fs::path& folder) { return folder / kCopied; }
+
+/// The copy that an earlier start of the run has made; nothing where there is none.
+std::optional<CopiedVolume> find_copy(const Input& input, const fs::path& folder) {
+    std::array<std::uint64_t, 4> said{};
+    if (input.samples || !fs::exists(copied_path(folder)) || !fs::exists(folder / kStagedLabels)) return {};
+    const formats::InputFile file(copied_path(folder));
+    if (file.read(0, std::as_writable_bytes(std::span(said))) != sizeof said) return {};
+    if (fingerprint_of(std::span(said).first(said.size() - 1)) != said.back()) return {};
+    Manifest manifest;
+    manifest.is_unsigned = table_for(input.info).is_unsigned();
+    manifest.label_count = said[0];
+    manifest.labels_hash = said[1];
+    return CopiedVolume{read_labels(manifest, folder), said[2]};
+}
+
+CopiedVolume copy_volume(Input& input, const BlockOptions& blocks, const OnBlocks& on_progress) {
+    SectionReader& reader = input.sections();
+    StagingFile copy(blocks.folder / kStagedLabels, blocks.output);
+    LabelTable labels = table_for(input.info);
+    dense_background(input.survey.background, labels);
+    SampleHashes hashes = hashes_of_part(input.info, {{}, input.info.lattice.size});
+    const std::uint32_t count = reader.section_count();
+    std::vector<InputLabel> section(std::size_t{reader.section_width()} * reader.section_height());
+    std::vector<Label> dense(section.size());
+    for (std::uint32_t n = 0; n < count; ++n) {
+        require_section(reader.next(section), input.info, n);
+        labels.dense(section, dense);
+        copy.write(dense);
+        hashes.add(n, dense, labels);
+        if (on_progress) on_progress({"read", n + 1, count});
+    }
+    copy.commit();
+    write_labels(labels, blocks.folder, blocks.output);
+    std::array<std::uint64_t, 4> said{labels.size(), hash_of(labels), fingerprint_of(hashes.sums()), 0};
+    said.back() = fingerprint_of(std::span(said).first(said.size() - 1));
+    OutputFile file(copied_path(blocks.folder), blocks.output);
+    file.write({reinterpret_cast<const char*>(said.data()), sizeof said});
+    file.commit();
+    return {std::move(labels), said[2]};
+}
+
+/// Copies the samples, unless that was done, and surveys the copy.
+Survey survey_copy(Input& input, const ReconstructOptions& options, const BlockOptions& blocks,
+                   const OnBlocks& on_progress) {
+    std::optional<CopiedVolume> copied = find_copy(input, blocks.folder);
+    if (!copied) copied = copy_volume(input, blocks, on_progress);
+    const StagedLabels staged(blocks.folder / kStagedLabels, input.info.lattice, input.info.sweep);
+    const OpenSections open = [&] { return std::make_unique<StagedReader>(staged, copied->labels, input.info); };
+    const std::vector<IndexBox> boxes = input.parts(options, 1);
+    BlockTasks alone;
+    if (boxes.size() > 1) survey_parts(open, input, boxes, blocks, alone, on_progress);
+    Survey found =
+        boxes.size() > 1 ? join_parts(input, boxes, blocks.folder) : survey_sections(*open(), input.survey, nullptr);
+    if (fingerprint_of(found.hashes.sums()) != copied->hashes)
+        formats::fail(staged.path(), "is not the copy that the run made; remove the folder, and run again");
+    found.labels = std::move(copied->labels);
+    return found;
+}
+
+/// Reads the input from one end to the other; copies what cannot be read in any order.
+Survey survey_whole(Input& input, const ReconstructOptions& options, const BlockOptions& blocks,
+                    const OnBlocks& on_progress) {
+    if (!input.is_in_place) return survey_copy(input, options, blocks, on_progress);
     SurveyOptions survey = input.survey;
     survey.on_strip = [&](std::uint32_t done, std::uint32_t count) {
         if (on_progress) on_progress({"read", done, count});
     };
-    if (input.is_in_place) return survey_sections(input.sections(), survey, nullptr);
-    StagingFile copy(blocks.folder / kStagedLabels, blocks.output);
-    Survey found = survey_sections(input.sections(), survey, &copy);
-    copy.commit();
-    return found;
+    return survey_sections(input.sections(), survey, nullptr);
 }
 
 void note_survey(const Survey& found, const Input& input, const ReconstructOptions& options,
@@ -162,6 +232,7 @@ void note_survey(const Survey& found, const Input& input, const ReconstructOptio
     manifest.is_unsigned = found.labels.is_unsigned();
     manifest.label_count = found.labels.size();
     manifest.labels_hash = hash_of(found.labels);
+    manifest.hashes_hash = write_sample_hashes(found.hashes, blocks.folder, blocks.output);
     if (input.samples) manifest.samples_hash = input.samples->fingerprint();
     manifest.space = info.space;
     manifest.metres = info.metres;
@@ -194,7 +265,9 @@ void require_regions(const Survey& found, const Input& input, const ReconstructO
 void remove_survey(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder))
-        if (const std::string name = entry.path().filename(); name == kStagedLabels || name.starts_with(kSurveyPart))
+        if (const std::string name = entry.path().filename(); name == kStagedLabels || name == kCopied ||
+                                                              name == kLabels || name == kSampleHashes ||
+                                                              name.starts_with(kSurveyPart))
             files.push_back(entry.path());
     files.push_back(manifest_path(folder));
     std::error_code ignored;
@@ -270,14 +343,15 @@ std::unique_ptr<FolderLock> begin_run(const OpenSections& open, const Reconstruc
     tasks.end_phase();
     if (read_manifest_together(blocks.folder, tasks).is_surveyed) return lock;
     if (!input) input.emplace(open, options);
-    const std::vector<IndexBox> boxes = input->boxes(options, tasks.processes());
+    std::vector<IndexBox> boxes;
+    if (input->is_in_place) boxes = input->parts(options, tasks.processes());
     bool others_write = boxes.size() > 1 && tasks.processes() > 1;  // parts of the survey
     try {
-        if (boxes.size() > 1) survey_parts(open, boxes, input->survey, blocks, tasks, on_progress);
+        if (boxes.size() > 1) survey_parts(open, *input, boxes, blocks, tasks, on_progress);
         others_write = false;
         if (tasks.is_first()) {
-            const Survey found =
-                boxes.size() > 1 ? join_parts(*input, boxes, blocks.folder) : survey_whole(*input, blocks, on_progress);
+            const Survey found = boxes.size() > 1 ? join_parts(*input, boxes, blocks.folder)
+                                                  : survey_whole(*input, options, blocks, on_progress);
             require_regions(found, *input, options);
             require_unchanged(blocks);
             note_survey(found, *input, options, blocks);

@@ -16,6 +16,12 @@ using OnBlocks = std::function<void(const BlockProgress&)>;
 /// The labels of a volume that cannot be read in place, while blocks are reconstructed: a file of the folder.
 inline constexpr const char* kStagedLabels = "volume.labels";
 
+/// A file of the folder that says that such a copy is complete.
+inline constexpr const char* kCopied = "copied";
+
+/// A file of the folder: how far the run was when it was last started, while blocks are reconstructed.
+inline constexpr const char* kLastStart = "last-start";
+
 /// Names of files of the folder that are not needed once the manifest has labels and faces begin so.
 inline constexpr const char* kSurveyPart = "survey-";
 

@@ -12,10 +12,10 @@
 #include "blocks/cut.h"
 #include "blocks/gather.h"
 #include "blocks/join.h"
+#include "blocks/misfit.h"
 #include "blocks/own_faces.h"
 #include "blocks/passes.h"
 #include "blocks/quotas.h"
-#include "blocks/staged_labels.h"
 #include "regionmesh/census.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
@@ -25,16 +25,7 @@
 #include "stream/stage_options.h"
 
 namespace regionmesh {
-namespace {
-
 namespace fs = std::filesystem;
-
-/// The boxes of a volume whose blocks are all there.
-struct NoBoxes final : LabelBoxes {
-    std::unique_ptr<BoxSections> open(const IndexBox&) const override { return nullptr; }
-};
-
-}  // namespace
 
 BlockRun::BlockRun(const OpenSections& open, const ReconstructOptions& options, const BlockOptions& blocks,
                    BlockTasks& tasks, const std::function<void(const BlockProgress&)>& on_progress)
@@ -54,15 +45,17 @@ BlockReport BlockRun::run() {
         const auto lock = begin_run(open_, options_, blocks_, tasks_, on_progress_);
         manifest_ = read_manifest_together(folder_, tasks_);
         job_ = job_of(manifest_.identity);
+        open_volume();
         if (manifest_.is_complete) {
             require_pieces(manifest_, folder_);
         } else {
-            open_volume();
             run_passes();
             if (tasks_.is_first()) complete();
             tasks_.end_phase();
             manifest_ = require_manifest(folder_);
         }
+        if (tasks_.is_first()) check_result();
+        tasks_.end_phase();
     }
     report_.pieces = static_cast<std::uint32_t>(manifest_.pieces.size());
     report_.block_cells = manifest_.block_cells;
@@ -84,12 +77,7 @@ void BlockRun::open_volume() {
     labels_ = read_labels(manifest_, folder_);
     const std::vector<Label> background = dense_background(manifest_.background, labels_);
     const SourceShape shape = section_shape(info, cell_kind(options_), manifest_.scale_z);
-    if (manifest_.passes > 0)
-        boxes_ = std::make_unique<NoBoxes>();
-    else if (manifest_.is_in_place)
-        boxes_ = std::make_unique<LabelsInPlace>(open_, labels_);
-    else
-        boxes_ = std::make_unique<StagedLabels>(folder_ / kStagedLabels, manifest_.lattice, manifest_.sweep);
+    has_samples_ = open_boxes();
     target_.total = manifest_.initial_faces;
     const StripOptions strips{.cap = options_.cap,
                               .background = background,
@@ -136,7 +124,7 @@ fs::path BlockRun::path_of(std::uint32_t pass, std::uint32_t block) const { retu
 std::vector<PieceHeader> BlockRun::headers() const {
     std::vector<PieceHeader> found;
     for (std::uint32_t block = 0; block < manifest_.pieces.size(); ++block)
-        found.push_back(read_piece_header(path_of(manifest_.pieces[block].pass, block)));
+        found.push_back(read_entry_header(manifest_, folder_, block));
     return found;
 }
 
@@ -150,7 +138,7 @@ PieceHeader BlockRun::header_of(std::uint32_t pass, std::uint32_t block) const {
 
 /// Whether the piece was made before, by this run or by one that was ended.
 bool BlockRun::is_there(const PieceHeader& header) {
-    const bool is_found = find_piece(path_of(header.pass, header.block), header).has_value();
+    const bool is_found = find_piece(path_of(header.pass, header.block), header, piece_limits(manifest_)).has_value();
     if (is_found) ++report_.found;
     return is_found;
 }
@@ -202,7 +190,7 @@ void BlockRun::note_pieces(std::uint32_t pass, const std::vector<std::uint32_t>&
     if (manifest_.pieces.size() != count || blocks.size() == count) manifest_.pieces.assign(count, {});
     for (const std::uint32_t block : blocks) {
         const fs::path path = path_of(pass, block);
-        const PieceHeader header = read_piece_header(path);
+        const PieceHeader header = read_piece_header(path, piece_limits(manifest_));
         manifest_.pieces[block] = {pass, header.vertices, header.faces, read_checksum(path)};
     }
     manifest_.passes = pass + 1;
@@ -226,27 +214,32 @@ void BlockRun::note_cut(std::uint32_t pass) {
     for (std::size_t block = 0; block < made.size(); ++block) manifest_.pieces[block].collapses = made[block];
 }
 
-/// Removes the labels, parts of the survey, and pieces that the manifest does not name, of passes before this one.
+/// Removes parts of the survey, and pieces that the manifest does not name, of passes before this one.
 void BlockRun::remove_passes_before(std::uint32_t pass) {
     std::set<std::string> used;
     for (std::uint32_t block = 0; block < manifest_.pieces.size(); ++block)
         used.insert(path_of(manifest_.pieces[block].pass, block).filename());
     std::error_code ignored;
-    std::vector<fs::path> unused{folder_ / kStagedLabels};
+    std::vector<fs::path> unused;
     for (const auto& entry : fs::directory_iterator(folder_)) {
         const std::string name = entry.path().filename();
         const auto number = pass_of(name);
         const bool is_old_piece = number && *number < pass && !used.contains(name);
-        if (is_old_piece || name.starts_with(kSurveyPart)) unused.push_back(entry.path());
+        if (is_old_piece || name.starts_with(kSurveyPart) || name == kLastStart || name == kCopied)
+            unused.push_back(entry.path());
     }
     for (const fs::path& path : unused) fs::remove(path, ignored);
 }
 
 void BlockRun::reconstruct_pass() {
+    if (!has_samples_)
+        throw Error(ErrorCode::kInput, folder_.string() +
+                                           ": its samples, or the hashes of those of the input, are "
+                                           "missing; remove the folder, and run again");
     const BlockGrid blocks = grid(0);
     require_block_memory(manifest_.source, volume_->shape, manifest_.initial_faces, manifest_.block_cells, options_);
-    const std::vector<IndexBox> sweeps =
-        plan_sweeps(blocks, volume_->shape, manifest_.initial_faces, options_, tasks_.processes());
+    const std::vector<IndexBox> sweeps = plan_sweeps(blocks, volume_->shape, manifest_.initial_faces, options_,
+                                                     std::max(tasks_.processes(), parts_for_restarts(blocks.count())));
     std::vector<std::uint32_t> all(blocks.count());
     std::iota(all.begin(), all.end(), 0);
     std::vector<std::uint32_t> before{0};  // blocks of the sweeps before
@@ -316,11 +309,15 @@ Piece BlockRun::remade(const PieceHeader& header, const PiecesBefore& before, co
     const BlockGrid blocks = grid(header.pass);
     BlockGatherer gatherer(blocks, header.block);
     before.map.for_pieces_at(blocks.reach(header.block), [&](std::uint32_t n) {
-        gatherer.add(read_piece(path_of(manifest_.pieces[n].pass, n)), shares.empty() ? 0 : shares[n]);
+        gatherer.add(read_entry(manifest_, folder_, n), shares.empty() ? 0 : shares[n]);
     });
     BlockChunk block{
         .cells = blocks.cells(header.block), .lattice = volume_->shape.lattice, .sweep = manifest_.sweep, .chunk = {}};
     gatherer.take(block);
+    if (const std::string problem = misfit_of(block.chunk, volume_->background, options_.cap); !problem.empty())
+        throw Error(ErrorCode::kInput, fmt::format("{}: the pieces at block {} do not fit together: {}; remove the "
+                                                   "folder, and run again",
+                                                   folder_.string(), header.block, problem));
     PieceHeader own = header;
     own.stopped = simplify(block, gatherer.goal());
     return piece_of(block, blocks, own);
@@ -355,7 +352,7 @@ void BlockRun::cut_pass(std::uint32_t pass) {
     std::vector<std::uint32_t> all(manifest_.pieces.size());
     std::iota(all.begin(), all.end(), 0);
     run_pass(pass, "cut", all, [&](const PieceHeader& header) {
-        Piece piece = read_piece(path_of(header.pass - 1, header.block));
+        Piece piece = read_entry(manifest_, folder_, header.block);
         const StopReason stopped = piece.header.stopped;
         piece.header = header;
         piece.header.stopped = stopped;

@@ -43,6 +43,7 @@ private:
     };
 
     void open_volume();
+    bool open_boxes();
     void run_passes();
     void run_pass(std::uint32_t pass, const char* stage, const std::vector<std::uint32_t>& blocks,
                   const MakePiece& make);
@@ -55,6 +56,7 @@ private:
     void end_pass(std::uint32_t pass, const std::vector<std::uint32_t>& blocks);
     void require_samples_unchanged();
     void remove_passes_before(std::uint32_t pass);
+    std::uint32_t parts_for_restarts(std::uint32_t blocks) const;
     void reconstruct_pass();
     void sweep_blocks(const BlockGrid& blocks, IndexBox sweep, std::uint32_t done);
     Piece reconstructed(const BlockGrid& blocks, PieceHeader header, Chunk faces);
@@ -62,6 +64,9 @@ private:
     void log_pass(std::uint32_t pass);
     void cut_pass(std::uint32_t pass);
     void complete();
+    void check_result();
+    bool has_room_for_section() const;
+    SampleAgreement compare_samples(LabelOracle& oracle);
 
     bool has_target() const { return target_.faces || target_.reduce; }
     std::uint64_t target() const { return target_.of(manifest_.initial_faces); }
@@ -87,7 +92,8 @@ private:
     Target target_;
     bool is_decimating_;
     LabelTable labels_;
-    std::unique_ptr<LabelBoxes> boxes_;
+    bool has_samples_ = false;
+    std::unique_ptr<LabelBoxes> given_, boxes_;  // those of the input or of the copy; compared with hashes
     std::optional<BlockVolume> volume_;
     BlockReport report_;
 };

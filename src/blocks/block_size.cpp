@@ -22,8 +22,6 @@ constexpr std::uint32_t kFewestCells = 64;
 constexpr double kUneven = 2;
 /// Sections that the window of smoothing holds, about.
 constexpr double kWindowSections = 64;
-/// Most blocks.
-constexpr double kMostBlocks = 10e6;
 /// Sweeps for each process, at least, so that all end at about the same time.
 constexpr std::uint32_t kSweepsPerProcess = 3;
 

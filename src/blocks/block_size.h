@@ -24,7 +24,10 @@ void require_block_memory(const std::string& source, const SourceShape& shape, s
 std::vector<IndexBox> plan_sweeps(const BlockGrid& grid, const SourceShape& shape, std::uint64_t faces,
                                   const ReconstructOptions& options, std::uint32_t processes);
 
-/// Throws Error(kInput) where there would be too many blocks, each of which is a file.
+/// Most blocks: each is a file.
+inline constexpr double kMostBlocks = 10e6;
+
+/// Throws Error(kInput) where there would be more blocks.
 void require_block_count(const VolumeInfo& volume, std::uint32_t cells);
 
 }  // namespace regionmesh

@@ -15,16 +15,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of a piece that is the one in the manifest.
-fs::path path_of(const Manifest& manifest, const fs::path& folder, std::uint32_t block) {
-    const PieceEntry& entry = manifest.pieces[block];
-    const fs::path path = piece_path(folder, entry.pass, block);
+/// The piece that the manifest names, without a look at the checksum of what it holds.
+fs::path entry_path(const Manifest& manifest, const fs::path& folder, std::uint32_t block) {
+    const fs::path path = piece_path(folder, manifest.pieces[block].pass, block);
     if (!fs::exists(path))
         formats::fail(path, "is missing, and the manifest names it; remove the folder, and run again");
-    const PieceHeader header = read_piece_header(path);  // its counts fit the size of the file
+    return path;
+}
+
+void require_entry(const Manifest& manifest, std::uint32_t block, const PieceHeader& header, const fs::path& path) {
+    const PieceEntry& entry = manifest.pieces[block];
     if (read_checksum(path) != entry.checksum || header.vertices != entry.vertices || header.faces != entry.faces)
         formats::fail(path, "is not the piece that the manifest names; remove the folder, and run again");
-    return path;
 }
 
 }  // namespace
@@ -34,13 +36,29 @@ void require_pieces(const Manifest& manifest, const fs::path& folder) {
     for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) read_entry(manifest, folder, block);
 }
 
+PieceLimits piece_limits(const Manifest& manifest) {
+    const Lattice lattice = piece_lattice(manifest);
+    const Vec3 cells{lattice.size[0] - 1.0, lattice.size[1] - 1.0, lattice.size[2] - 1.0};
+    PieceLimits limits{.labels = manifest.label_count};
+    for (const double margin : {-1.0, 1.0})  // in cells: sides of the volume may be rounded
+        for (int axis = 0; axis < 3; ++axis) {
+            const double at = lattice.origin[axis] + (margin + (margin > 0 ? cells[axis] : 0)) * lattice.spacing[axis];
+            (margin < 0 ? limits.box.low : limits.box.high)[axis] = at;
+        }
+    return limits;
+}
+
+PieceHeader read_entry_header(const Manifest& manifest, const fs::path& folder, std::uint32_t block) {
+    const fs::path path = entry_path(manifest, folder, block);
+    const PieceHeader header = read_piece_header(path, piece_limits(manifest));
+    require_entry(manifest, block, header, path);
+    return header;
+}
+
 Piece read_entry(const Manifest& manifest, const fs::path& folder, std::uint32_t block) {
-    const fs::path path = path_of(manifest, folder, block);
-    Piece piece = read_piece(path);
-    for (const PieceFace& face : piece.faces)
-        for (const Label label : face.labels)
-            if (label >= manifest.label_count && !(is_exterior(label) && side_of(label) < kSideCount))
-                formats::fail(path, "a face has a label that the folder does not have");
+    const fs::path path = entry_path(manifest, folder, block);
+    Piece piece = read_piece(path, piece_limits(manifest));
+    require_entry(manifest, block, piece.header, path);
     return piece;
 }
 
@@ -58,7 +76,7 @@ std::optional<std::uint32_t> pass_of(const std::string& name) {
 PieceMap piece_map(const Manifest& manifest, const fs::path& folder) {
     std::vector<Box> boxes;
     for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block)
-        boxes.push_back(read_piece_header(piece_path(folder, manifest.pieces[block].pass, block)).box);
+        boxes.push_back(read_entry_header(manifest, folder, block).box);
     return {piece_grid(manifest), std::move(boxes)};
 }
 
@@ -88,7 +106,7 @@ MeshFile describe_block_folder(const fs::path& folder) {
 MeshFile read_block_folder(const fs::path& folder) {
     const Manifest manifest = read_complete_manifest(folder);
     MeshFile file = describe_block_folder(folder);
-    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) path_of(manifest, folder, block);
+    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) read_entry_header(manifest, folder, block);
     require_mesh_size("the model in pieces", manifest.vertices, manifest.faces);
     file.mesh.reserve(manifest.vertices, manifest.faces);
     GlobalNumbers numbers(manifest, folder);

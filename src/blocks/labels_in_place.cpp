@@ -19,8 +19,9 @@ public:
             // Neighbours mostly have the same label.
             if (n == 0 || input_[n] != input_[n - 1]) last_ = labels_.find(input_[n]);
             if (!is_read || !last_)
-                throw Error(ErrorCode::kInput,
-                            reader_->info().source + ": changed while it was read; remove the folder, and run again");
+                throw Error(ErrorCode::kInput, reader_->info().source +
+                                                   ": has a label that it did not have when the run was begun; give "
+                                                   "the volume that it was begun with, or another folder");
             section[n] = *last_;
         }
     }

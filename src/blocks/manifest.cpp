@@ -5,6 +5,7 @@
 
 #include "base/fingerprint.h"
 #include "blocks/block_grid.h"
+#include "blocks/block_size.h"
 #include "blocks/passes.h"
 #include "formats/input_file.h"
 #include "formats/report/json_parts.h"
@@ -45,6 +46,7 @@ Json json_of(const Manifest& manifest) {
     json["unsigned_labels"] = manifest.is_unsigned;
     json["labels"] = manifest.label_count;
     if (manifest.labels_hash) json["labels_hash"] = *manifest.labels_hash;
+    if (manifest.hashes_hash) json["hashes_hash"] = *manifest.hashes_hash;
     if (manifest.samples_hash) json["samples_hash"] = *manifest.samples_hash;
     json["space"] = space_name(manifest.space);
     if (manifest.metres) json["metres_per_unit"] = *manifest.metres;
@@ -135,6 +137,7 @@ Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
     const WholeNumbers numbers(json, path);
     numbers.get("labels", manifest.label_count);
     numbers.get("labels_hash", manifest.labels_hash);
+    numbers.get("hashes_hash", manifest.hashes_hash);
     numbers.get("samples_hash", manifest.samples_hash);
     manifest.space = space_named(json.at("space").get<std::string>());
     if (json.contains("metres_per_unit"))
@@ -176,11 +179,15 @@ void require_sound(const Manifest& manifest, const fs::path& path) {
     const BlockGrid grid = piece_grid(manifest);
     double blocks = 1;  // more than 32 bits hold, perhaps
     for (const std::uint32_t along : grid.counts()) blocks *= along;
+    if (blocks > kMostBlocks) damaged();
     const bool has_pieces = manifest.is_complete || manifest.passes > 0;
     if (static_cast<double>(manifest.pieces.size()) != (has_pieces ? blocks : 0)) damaged();
 }
 
-fs::path labels_path(const fs::path& folder) { return folder / "labels.bin"; }
+/// Of all keys and values, in whatever order and layout.
+std::uint64_t checksum_of(const nlohmann::json& json) { return Fingerprint().add(json.dump()).value(); }
+
+fs::path labels_path(const fs::path& folder) { return folder / kLabels; }
 
 }  // namespace
 
@@ -231,6 +238,13 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
         if (json->at("version") != kVersion)
             formats::fail(path, "is of version " + json->at("version").dump() + ", and this program writes version " +
                                     std::to_string(kVersion) + "; take the program that wrote it");
+        if (json->contains("checksum")) {  // added to version 1
+            nlohmann::json rest = *json;
+            rest.erase("checksum");
+            if (json->at("checksum") != checksum_of(rest))
+                formats::fail(path,
+                              "its checksum does not fit: the file was changed; remove the folder, and run again");
+        }
         Manifest manifest = manifest_of(*json, path);
         require_sound(manifest, path);
         return manifest;
@@ -239,7 +253,9 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
 
 void write_manifest(const Manifest& manifest, const fs::path& folder, const OutputOptions& options) {
     OutputFile file(manifest_path(folder), options);
-    file.write(text_of(json_of(manifest)));
+    Json json = json_of(manifest);
+    json["checksum"] = checksum_of(nlohmann::json::parse(text_of(json)));
+    file.write(text_of(json));
     file.commit();
 }
 

@@ -39,6 +39,7 @@ struct Manifest {
     bool is_unsigned = false;                        // labels
     std::uint64_t label_count = 0;                   // in labels.bin
     std::optional<std::uint64_t> labels_hash = {};   // of labels.bin; earlier versions did not write it
+    std::optional<std::uint64_t> hashes_hash = {};   // of samples.hashes; earlier versions did not write it
     std::optional<std::uint64_t> samples_hash = {};  // of an input that is read in one pass
     Space space = Space::kUnknown;
     std::optional<double> metres = {};  // in the unit of the lattice
@@ -76,7 +77,9 @@ void write_manifest(const Manifest& manifest, const std::filesystem::path& folde
 /// Throws Error(kInput) that names the first difference.
 void require_same_run(const Manifest& there, const RunIdentity& identity, const std::filesystem::path& folder);
 
-/// Files of 64-bit labels by dense label, in the folder.
+/// A file of 64-bit labels by dense label, in the folder.
+inline constexpr const char* kLabels = "labels.bin";
+
 void write_labels(const LabelTable& labels, const std::filesystem::path& folder, const OutputOptions& options);
 LabelTable read_labels(const Manifest& manifest, const std::filesystem::path& folder);
 

@@ -63,10 +63,17 @@ struct Piece {
 /// all of them. The file has its name only when it is complete. Returns the checksum.
 std::uint32_t write_piece(Piece& piece, const std::filesystem::path& path, const OutputOptions& options);
 
-/// Throws Error(kInput) for a file that is not such a piece or whose checksum does not fit.
-Piece read_piece(const std::filesystem::path& path);
+/// What the pieces of a run have in common.
+struct PieceLimits {
+    std::uint64_t labels = kFirstExterior;  // dense ones, and the exteriors of the six sides
+    Box box = {};                           // of all vertices; empty: unknown
+};
+
+/// Throws Error(kInput) for a file that is not such a piece, whose checksum does not fit, or that has what no piece
+/// has: the file may come from anywhere. What the stages after it rely on across pieces, BlockGatherer requires.
+Piece read_piece(const std::filesystem::path& path, const PieceLimits& limits = {});
 /// The header alone; the rest of the file is not looked at.
-PieceHeader read_piece_header(const std::filesystem::path& path);
+PieceHeader read_piece_header(const std::filesystem::path& path, const PieceLimits& limits = {});
 /// The log alone; the checksum is not looked at.
 std::vector<LoggedCollapse> read_piece_log(const std::filesystem::path& path);
 
@@ -74,6 +81,7 @@ std::vector<LoggedCollapse> read_piece_log(const std::filesystem::path& path);
 std::uint32_t read_checksum(const std::filesystem::path& path);
 
 /// The checksum of a complete piece of this job, pass and block; nothing where there is none.
-std::optional<std::uint32_t> find_piece(const std::filesystem::path& path, const PieceHeader& like);
+std::optional<std::uint32_t> find_piece(const std::filesystem::path& path, const PieceHeader& like,
+                                        const PieceLimits& limits);
 
 }  // namespace regionmesh

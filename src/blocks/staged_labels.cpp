@@ -46,4 +46,35 @@ std::unique_ptr<BoxSections> StagedLabels::open(const IndexBox& box) const {
     return std::make_unique<Rows>(file_, lattice_, sweep_, box);
 }
 
+StagedReader::StagedReader(const StagedLabels& staged, const LabelTable& labels, const VolumeInfo& info)
+    : staged_(staged), labels_(labels), info_(info), box_{{}, info.lattice.size}, sections_(staged.open(box_)) {}
+
+bool StagedReader::next(std::span<InputLabel> section) {
+    if (next_ == section_count()) return false;
+    section_.resize(section.size());
+    sections_->next(section_);
+    for (std::size_t n = 0; n < section.size(); ++n) {
+        if (section_[n] >= labels_.size())
+            formats::fail_section(staged_.path(), next_, "has a label that is not there; remove it, and run again");
+        section[n] = labels_.input(section_[n]);
+    }
+    ++next_;
+    return true;
+}
+
+void StagedReader::rewind() {
+    sections_ = staged_.open(box_);
+    next_ = 0;
+}
+
+bool StagedReader::crop(const IndexBox& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box_.high[axis] = box_.low[axis] + box.high[axis];
+        box_.low[axis] += box.low[axis];
+    }
+    info_.lattice = cropped(info_.lattice, box);
+    rewind();
+    return true;
+}
+
 }  // namespace regionmesh

@@ -4,10 +4,13 @@
 
 #include <filesystem>
 #include <span>
+#include <vector>
 
 #include "blocks/label_boxes.h"
 #include "formats/input_file.h"
+#include "regionmesh/label_table.h"
 #include "regionmesh/output_file.h"
+#include "regionmesh/section_reader.h"
 
 namespace regionmesh {
 
@@ -18,11 +21,33 @@ public:
     StagedLabels(const std::filesystem::path& path, const Lattice& lattice, const Sweep& sweep);
 
     std::unique_ptr<BoxSections> open(const IndexBox& box) const override;
+    const std::filesystem::path& path() const { return file_.path(); }
 
 private:
     formats::InputFile file_;
     Lattice lattice_;
     Sweep sweep_;
+};
+
+/// The labels of the input out of such a file, as a reader that can_crop().
+class StagedReader final : public SectionReader {
+public:
+    /// All must outlive it. `labels` is the table of the file.
+    StagedReader(const StagedLabels& staged, const LabelTable& labels, const VolumeInfo& info);
+
+    const VolumeInfo& info() const override { return info_; }
+    bool next(std::span<InputLabel> section) override;
+    void rewind() override;
+    bool crop(const IndexBox& box) override;
+
+private:
+    const StagedLabels& staged_;
+    const LabelTable& labels_;
+    VolumeInfo info_;
+    IndexBox box_;
+    std::unique_ptr<BoxSections> sections_;
+    std::uint32_t next_ = 0;
+    std::vector<Label> section_;
 };
 
 /// Writes such a file.

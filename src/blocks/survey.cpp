@@ -67,12 +67,14 @@ private:
 }  // namespace
 
 Survey survey_sections(SectionReader& reader, const SurveyOptions& options, StagingFile* copy) {
-    Survey survey{.labels = table_for(reader.info())};
+    const VolumeInfo& info = reader.info();
+    Survey survey{.labels = table_for(info), .hashes = hashes_of_part(info, {{}, info.lattice.size})};
     StripOptions strips = options.strips;
     strips.background = dense_background(options.background, survey.labels);
     std::uint32_t sections = 0;
     survey.faces = count_faces(reader, survey.labels, strips, [&](std::span<const Label> section) {
         if (copy) copy->write(section);
+        survey.hashes.add(sections, section, survey.labels);
         if (options.on_strip && sections > 0) options.on_strip(sections, reader.section_count() - 1);
         ++sections;
     });
@@ -101,6 +103,10 @@ std::vector<IndexBox> survey_boxes(const VolumeInfo& volume, std::uint64_t most_
     return boxes;
 }
 
+SampleHashes hashes_of_part(const VolumeInfo& volume, const IndexBox& box) {
+    return {volume.lattice.size, volume.sweep, box};
+}
+
 PartSurvey survey_part(const OpenSections& open, const IndexBox& box, const SurveyOptions& options) {
     const std::unique_ptr<SectionReader> reader = open();
     const VolumeInfo volume = reader->info();
@@ -111,19 +117,27 @@ PartSurvey survey_part(const OpenSections& open, const IndexBox& box, const Surv
     strips.first = box.low;
     strips.whole = volume.lattice.size;
     FirstPlaces places(volume, box);
-    PartSurvey part;
-    part.faces = count_faces(*reader, labels, strips, [&](std::span<const Label> section) { places.add(section); });
+    PartSurvey part{.labels = {}, .hashes = hashes_of_part(volume, box)};
+    std::array<std::uint32_t, 3> end = box.high;  // the next box has the last samples, too
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (end[axis] < volume.lattice.size[axis]) --end[axis];
+    std::uint32_t number = box.low[volume.sweep.axes[2]];
+    part.faces = count_faces(*reader, labels, strips, [&](std::span<const Label> section) {
+        places.add(section);
+        part.hashes.add(number++, section, labels, end);
+    });
     part.labels = places.list(labels);
     return part;
 }
 
 Survey join_surveys(const VolumeInfo& volume, const std::vector<InputLabel>& background,
                     std::span<const PartSurvey> parts) {
-    Survey survey{.labels = table_for(volume)};
+    Survey survey{.labels = table_for(volume), .hashes = hashes_of_part(volume, {{}, volume.lattice.size})};
     dense_background(background, survey.labels);
     std::vector<PartSurvey::First> all;
     for (const PartSurvey& part : parts) {
         survey.faces += part.faces;
+        survey.hashes.add(part.hashes);
         all.insert(all.end(), part.labels.begin(), part.labels.end());
     }
     std::ranges::sort(all, {}, &PartSurvey::First::place);

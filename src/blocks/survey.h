@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "blocks/labels_in_place.h"
+#include "blocks/sample_hashes.h"
 #include "blocks/staged_labels.h"
 #include "cells/strip_mesher.h"
 #include "regionmesh/label_table.h"
@@ -16,6 +17,7 @@ namespace regionmesh {
 
 struct Survey {
     LabelTable labels;        // the background first, then in the order in which sections have them
+    SampleHashes hashes;      // of all samples
     std::uint64_t faces = 0;  // before simplification
 };
 
@@ -40,7 +42,11 @@ struct PartSurvey {
     };
     std::uint64_t faces = 0;
     std::vector<First> labels;
+    SampleHashes hashes;  // of those of its samples that no box after it shares
 };
+
+/// The hashes of a part, before it is surveyed.
+SampleHashes hashes_of_part(const VolumeInfo& volume, const IndexBox& box);
 
 /// Requires that can_crop() a reader.
 PartSurvey survey_part(const OpenSections& open, const IndexBox& box, const SurveyOptions& options);

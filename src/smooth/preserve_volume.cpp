@@ -13,6 +13,7 @@
 #include "smooth/chunk_smoother.h"
 #include "smooth/filters/guarded_move.h"
 #include "smooth/filters/relax.h"
+#include "smooth/preserve_within.h"
 #include "smooth/region_matrix.h"
 #include "smooth/tuning.h"
 
@@ -95,12 +96,36 @@ Box limits_of(const Mesh& mesh, const std::optional<Box>& box) {
     return box ? common(limits, *box) : limits;
 }
 
+/// The largest error bound that a vertex can store which is not above `max_error`.
+double storable_bound(double max_error) {
+    Vertex vertex{};
+    double bound = max_error;
+    for (vertex.set_error_bound(bound); vertex.error_bound() > max_error; vertex.set_error_bound(bound))
+        bound -= 0x1p-9 * max_error;
+    return vertex.error_bound();
+}
+
+/// How far each vertex may get from where it was.
+struct Reach {
+    const std::vector<Vec3>& from;
+    double most_bound = HUGE_VAL;
+
+    Vec3 nearest(const Mesh& mesh, VertexId v, Vec3 to) const {
+        if (most_bound == HUGE_VAL) return to;
+        const Vec3 start = from[index(v)], way = to - start;
+        const double far = length(way), room = std::max(most_bound - mesh[v].error_bound(), 0.0);
+        constexpr double kRounded = 1 - 1e-6;
+        return far <= room * kRounded ? to : start + (room * kRounded / far) * way;
+    }
+};
+
 /// Rounds that bring the volumes nearer to those wanted.
 class VolumeRounds {
 public:
     /// The regions in `left` stay as they are.
-    VolumeRounds(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options, const std::vector<bool>& left)
-        : mesh_(mesh), wanted_(wanted), options_(options), left_(left), rest_(mesh.vertex_end()) {
+    VolumeRounds(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options, const std::vector<bool>& left,
+                 const Reach& reach)
+        : mesh_(mesh), wanted_(wanted), options_(options), left_(left), reach_(reach), rest_(mesh.vertex_end()) {
         for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
             if (!mesh.is_alive(VertexId{v}) || mesh[VertexId{v}].is_fixed) rest_[v] = kForEver;
         for_boundaries(mesh, left, [&](VertexId v) { rest_[index(v)] = kForEver; });
@@ -245,13 +270,14 @@ private:
             to[axis] =
                 std::clamp(to[axis], std::min(limits_.low[axis], from[axis]), std::max(limits_.high[axis], from[axis]));
         keep_on_sides(kept_sides(v), from, to);
-        return to;
+        return reach_.nearest(mesh_, v, to);
     }
 
     Mesh& mesh_;
     const WantedVolumes& wanted_;
     const SmoothOptions& options_;
     const std::vector<bool>& left_;
+    const Reach& reach_;
     Box limits_ = limits_of(mesh_, options_.box);
     bool is_first_ = true;
     std::vector<std::uint8_t> rest_;  // rounds to sit out
@@ -282,16 +308,22 @@ std::vector<Label> worse_regions(const State& before, const State& now) {
 }  // namespace
 
 PreserveReport preserve_volumes(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options) {
+    return preserve_volumes_within(mesh, wanted, options, HUGE_VAL);
+}
+
+PreserveReport preserve_volumes_within(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options,
+                                       double max_error) {
     require_in_range(options);
     for (const std::optional<double>& volume : wanted)
         if (volume) require_number("wanted", *volume, {-kMostNumber, kMostNumber, "any size"});
     const State before = state_of(mesh, wanted);
     State best = before;
+    const Reach reach{before.positions, std::isfinite(max_error) ? storable_bound(max_error) : HUGE_VAL};
     PreserveReport report;
     std::vector<bool> left(wanted.size());
     for (std::uint32_t attempt = 0; attempt < kMostAttempts; ++attempt) {
         put_back(mesh, before.positions);
-        VolumeRounds rounds(mesh, wanted, options, left);
+        VolumeRounds rounds(mesh, wanted, options, left, reach);
         std::vector<Label> worse;
         for (std::uint32_t round = 0; round < kMostVolumeRounds && !rounds.is_done(); ++round) {
             report.held_vertices += rounds.run_round();

@@ -6,6 +6,7 @@
 
 #include "judge/error_bound.h"
 #include "regionmesh/smooth.h"
+#include "smooth/preserve_within.h"
 #include "stream/stage_options.h"
 
 namespace regionmesh {
@@ -50,8 +51,9 @@ void restore_volumes(Reconstruction& result, const ReconstructOptions& options, 
     for (Label label : result.background)
         if (label < wanted.size()) wanted[label].reset();
     SmoothOptions own = smooth_options(options, shape.scale);
+    const Promises promises = promises_of(options, ground_of(shape));
     own.box = ground_of(shape).box;
-    result.report.preserved = preserve_volumes(result.mesh, wanted, own);
+    result.report.preserved = preserve_volumes_within(result.mesh, wanted, own, promises.max_error);
     result.report.error_bound = largest_error_bound(result.mesh);
 }
 

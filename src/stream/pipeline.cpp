@@ -24,6 +24,7 @@
 #include "stream/tile_stage.h"
 #include "stream/tuning.h"
 #include "volume/room_reader.h"
+#include "volume/section_window.h"
 
 namespace regionmesh {
 namespace {
@@ -212,6 +213,7 @@ Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& give
     require_in_range(given);
     require_sweep(reader.info().source, reader.info().sweep);
     require_lattice(reader.info().source, reader.info().lattice);
+    require_cells(reader.info());
     const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
     if (options.room == 0) return reconstruct_sections(reader, options, on_progress, on_model);
     RoomReader cleaned(reader, options.room, options.threads);

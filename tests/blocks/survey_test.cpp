@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -49,6 +50,7 @@ TEST_F(SurveyTest, by_parts_numbers_labels_and_counts_faces_as_by_sections) {
                     EXPECT_GE(parts.size(), std::min(count, open()->section_count() - 1));
                     const Survey columns = join_surveys(open()->info(), background, parts);
                     EXPECT_EQ(columns.faces, whole.faces) << samples;
+                    EXPECT_TRUE(std::ranges::equal(columns.hashes.sums(), whole.hashes.sums())) << samples;
                     ASSERT_EQ(columns.labels.size(), whole.labels.size());
                     for (Label label = 0; label < whole.labels.size(); ++label)
                         EXPECT_EQ(columns.labels.input(label), whole.labels.input(label)) << samples;

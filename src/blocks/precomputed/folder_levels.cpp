@@ -269,7 +269,7 @@ public:
         for (std::uint32_t block = 0; block < manifest_.pieces.size(); ++block) {
             const PieceEntry& entry = manifest_.pieces[block];
             if (entry.faces == 0) continue;
-            const Box box = read_piece_header(piece_path(folder_, entry.pass, block)).box;
+            const Box box = read_entry_header(manifest_, folder_, block).box;
             for (int n = 0; n < 8; ++n)
                 corners.add_vertex(
                     {(n & 1 ? box.high : box.low).x, (n & 2 ? box.high : box.low).y, (n & 4 ? box.high : box.low).z});

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/add_warning.h"
 #include "formats/array/numbered_sections.h"
 #include "formats/array/volume_size.h"
 
@@ -12,6 +13,8 @@ namespace {
 
 constexpr std::uint64_t kPartSamples = std::uint64_t{1} << 17;  // read and decoded at a time
 constexpr std::uint64_t kMostPartBytes = std::uint64_t{1} << 20;
+constexpr const char* kMore =
+    "more than its samples is compressed in it; the rest was not read, nor its checksum compared";
 
 class StreamReader final : public NumberedSections {
 public:
@@ -40,7 +43,10 @@ private:
                            number, done);
             done += count;
         }
-        if (number + 1 == section_count() && !stream_->finish()) refuse();
+        if (number + 1 < section_count()) return;
+        if (!stream_->finish()) refuse();
+        if (!stream_->is_read_to_end() && info_.warning.find(kMore) == std::string::npos)
+            add_warning(info_.warning, kMore);
     }
 
     std::unique_ptr<ByteStream> stream_;

@@ -21,11 +21,20 @@ struct Found {
     std::optional<OmeLevel> level = {};
     LabelNames names = {};
     LabelColours colours = {};
+    std::vector<fs::path> files = {};  // the metadata of the image
 };
+
+std::vector<fs::path> metadata_of(const fs::path& group) {
+    std::vector<fs::path> files;
+    std::error_code ignored;
+    for (const char* name : {"zarr.json", ".zattrs"})
+        if (fs::exists(group / name, ignored)) files.push_back(group / name);
+    return files;
+}
 
 Found from_image(const fs::path& group, const OmeLevel& level, const Json& attributes) {
     return {level.folder, level, reading(group, [&] { return ome_label_names(attributes); }),
-            reading(group, [&] { return ome_label_colours(attributes); })};
+            reading(group, [&] { return ome_label_colours(attributes); }), metadata_of(group)};
 }
 
 /// Searches the folders above for the image that has the array as one of its resolutions.
@@ -105,7 +114,8 @@ std::unique_ptr<SectionReader> open_zarr(const fs::path& path, const ReadOptions
     StoreVolume volume{.format = "zarr",
                        .source = path.string(),
                        .names = std::move(found.names),
-                       .colours = std::move(found.colours)};
+                       .colours = std::move(found.colours),
+                       .files = std::move(found.files)};
     const std::size_t axis_count = array->shape.size();
     if (found.level) {
         if (found.level->axes.size() != axis_count)

@@ -321,6 +321,7 @@ std::unique_ptr<SectionReader> open_store_array(StoreArray array, StoreVolume vo
     place(info, volume.placement, options);
     info.names = std::move(volume.names);
     info.colours = std::move(volume.colours);
+    info.files = std::move(volume.files);
     const BlockLayout layout{.format = array.format,
                              .chunk = volume.axes.along(array.chunk),
                              .source_bytes = 2 * product(array.chunk) * sample_bytes(array.format),

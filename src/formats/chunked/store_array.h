@@ -47,6 +47,7 @@ struct StoreVolume {
     Placement placement = {};
     LabelNames names = {};
     LabelColours colours = {};
+    std::vector<std::filesystem::path> files = {};  // outside of the array, which describe it
 };
 
 /// Throws if lists have different lengths or a chunk is larger than a GiB. `metadata` is the file named in errors.

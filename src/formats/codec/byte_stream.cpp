@@ -32,7 +32,7 @@ std::size_t JoinedStream::read(std::span<std::byte> bytes) {
     std::size_t done = 0;
     while (done < bytes.size()) {
         if (left_ == 0) {
-            if (stream_ && !stream_->finish()) break;
+            if (stream_ && !finish_part()) break;
             if (next_ == parts_.size()) {
                 stream_.reset();
                 problem_ = "the files of samples end early; the header names too few";
@@ -50,8 +50,15 @@ std::size_t JoinedStream::read(std::span<std::byte> bytes) {
     return done;
 }
 
+bool JoinedStream::finish_part() {
+    const bool is_sound = stream_->finish();
+    is_read_to_end_ = is_read_to_end_ && stream_->is_read_to_end();
+    return is_sound;
+}
+
 void JoinedStream::rewind() {
     stream_.reset();
+    is_read_to_end_ = true;
     next_ = 0;
     left_ = 0;
 }

@@ -26,6 +26,8 @@ public:
 
     /// To be called after the last byte needed: false, and a problem, where the rest shows that the stream is damaged.
     virtual bool finish() { return true; }
+    /// Whether finish() came to the end: more than a few bytes behind those needed are not read.
+    virtual bool is_read_to_end() const { return true; }
 
     virtual const std::string& problem() const = 0;
 
@@ -62,12 +64,16 @@ public:
 
     std::size_t read(std::span<std::byte> bytes) override;
     void rewind() override;
-    bool finish() override { return !stream_ || stream_->finish(); }
+    bool finish() override { return !stream_ || finish_part(); }
+    bool is_read_to_end() const override { return is_read_to_end_; }
     const std::string& problem() const override { return stream_ ? stream_->problem() : problem_; }
 
 private:
+    bool finish_part();
+
     std::vector<StreamPart> parts_;
     std::unique_ptr<ByteStream> stream_;
+    bool is_read_to_end_ = true;
     std::size_t next_ = 0;    // part
     std::uint64_t left_ = 0;  // of the stream that is open
     std::string problem_;

@@ -9,6 +9,8 @@ namespace regionmesh::formats {
 namespace {
 
 constexpr std::size_t kPackedBytes = std::size_t{256} << 10;
+/// Inflated bytes behind those needed that are read for the sake of a check sum.
+constexpr std::size_t kMostBehind = std::size_t{1} << 20;
 constexpr int kAnyWrapper =
     15 + 32;  // for zlib: the largest window; the header says whether zlib or gzip wrote the stream
 constexpr int kNoWrapper = -15;
@@ -77,7 +79,7 @@ std::size_t DeflateStream::read(std::span<std::byte> bytes) {
 
 bool DeflateStream::finish() {
     std::array<std::byte, 4096> waste;
-    while (!is_at_end_) {
+    for (std::size_t done = 0; !is_at_end_ && done < kMostBehind; done += waste.size()) {
         const std::size_t count = read(waste);
         if (count < waste.size() && !is_at_end_) return false;
     }

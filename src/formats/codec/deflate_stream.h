@@ -29,8 +29,10 @@ public:
 
     std::size_t read(std::span<std::byte> bytes) override;
 
-    /// Reads to the end to verify the last check sum; false where the stream is damaged or truncated.
+    /// Reads to the end to verify the last check sum, if it is at most a mebibyte away; false where the stream is
+    /// damaged or truncated.
     bool finish() override;
+    bool is_read_to_end() const override { return is_at_end_; }
 
     void rewind() override;
     const std::string& problem() const override { return problem_; }

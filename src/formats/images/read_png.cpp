@@ -58,14 +58,18 @@ bool call_header(PngCall* call) {
     return true;
 }
 
-/// Interlaced images come in several passes over all rows.
-bool call_pixels(PngCall* call) {
+/// Calls on_row(y) with each row, in their order. Interlaced images come in several passes over all rows, which are
+/// held.
+template <class OnRow>
+bool call_pixels(PngCall* call, OnRow& on_row) {
     if (setjmp(call->escape)) return false;
     const int passes = png_set_interlace_handling(call->png);
     png_start_read_image(call->png);
+    const std::size_t step = passes > 1 ? call->row_bytes : 0;
     for (int pass = 0; pass < passes; ++pass) {
         for (std::uint32_t y = 0; y < call->shape.height; ++y) {
-            png_read_row(call->png, reinterpret_cast<png_bytep>(call->pixels + y * call->row_bytes), nullptr);
+            png_read_row(call->png, reinterpret_cast<png_bytep>(call->pixels + y * step), nullptr);
+            if (pass + 1 == passes) on_row(y, call->pixels + y * step);
         }
     }
     png_read_end(call->png, nullptr);
@@ -108,15 +112,16 @@ public:
     }
 
     void read(std::span<InputLabel> labels) {
-        std::vector<std::byte> pixels(std::uint64_t{call_.row_bytes} * shape().height);
+        const bool is_interlaced = png_get_interlace_type(call_.png, call_.png_info) != PNG_INTERLACE_NONE;
+        std::vector<std::byte> pixels(std::uint64_t{call_.row_bytes} * (is_interlaced ? shape().height : 1));
         call_.pixels = pixels.data();
-        if (!call_pixels(&call_)) refuse();
         std::fill(labels.begin(), labels.end(), 0);
         const RowFormat format{.channel_count = shape().channels, .is_big_endian = true};
-        for (std::size_t y = 0; y < shape().height; ++y) {
-            unpack_row(std::span(pixels).subspan(y * call_.row_bytes, call_.row_bytes), shape(), format,
+        const auto put_row = [&](std::size_t y, const std::byte* row) {
+            unpack_row(std::span(row, call_.row_bytes), shape(), format,
                        labels.subspan(y * shape().width, shape().width));
-        }
+        };
+        if (!call_pixels(&call_, put_row)) refuse();
     }
 
 private:

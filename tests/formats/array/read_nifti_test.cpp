@@ -240,5 +240,25 @@ TEST_F(ReadNiftiTest, half_of_a_pair_is_refused) {
     EXPECT_THAT(refusal({path("a.hdr")}), HasSubstr("is half of a pair"));
 }
 
+/// Bytes behind the samples may be as many as there are: a file of 10 MB held 10.7 GB of zeros.
+TEST_F(ReadNiftiTest, reading_a_compressed_file_ends_near_the_last_sample) {
+    const std::string volume = text_of(data("nifti/sform_uint8.nii"));
+    const auto cut_off = [&](std::size_t behind) {
+        const std::filesystem::path file = gzipped("t.nii.gz", volume + std::string(behind, '\0'));
+        std::filesystem::resize_file(file, std::filesystem::file_size(file) - 9);  // the checksum goes
+        return file;
+    };
+    const auto read = [](const std::filesystem::path& file) {
+        const auto reader = open_sections({file});
+        std::vector<InputLabel> section(std::size_t{reader->section_width()} * reader->section_height());
+        while (reader->next(section)) {
+        }
+        return reader->info().warning;
+    };
+    EXPECT_THAT(read(cut_off(std::size_t{3} << 20)), HasSubstr("the rest was not read, nor its checksum compared"));
+    EXPECT_THROW(read(cut_off(1000)), Error) << "the checksum is near";
+    EXPECT_EQ(read(gzipped("t.nii.gz", volume + std::string(1000, '\0'))), "");
+}
+
 }  // namespace
 }  // namespace regionmesh
