@@ -12,10 +12,9 @@ namespace {
 
 constexpr int kListed = 3;  // findings printed of each kind; the JSON has up to CheckOptions::listed
 
-/// The volume that the model was made from, with the labels that --room gave it.
+/// The volume that the model was made from, with the labels that --room or --denoise gave it.
 std::unique_ptr<SectionReader> open_modelled(const Settings& settings) {
-    const ReconstructOptions& options = settings.reconstruct;
-    return clean_sections(open_volume(settings, settings.sections), options.room, options.threads);
+    return modelled_sections(open_volume(settings, settings.sections), settings.reconstruct);
 }
 
 void print_findings(const std::string& name, const CheckReport& report) {

@@ -91,6 +91,9 @@ std::string print_info(const Settings& settings, SectionReader& reader) {
                reader.section_height());
     print_labels(settings, census, info.names, "sample");
     print_model(census);
+    std::optional<Roughness> roughness;
+    if (info.can_rewind) roughness = measure_roughness(reader, settings.reconstruct.threads);
+    if (roughness) fmt::print("roughness  {}\n", roughness->text());
     const auto megabytes = [&](std::optional<double> reduce) {
         ReconstructOptions options = settings.reconstruct;
         options.reduce = reduce;
@@ -98,7 +101,7 @@ std::string print_info(const Settings& settings, SectionReader& reader) {
     };
     fmt::print("memory     {:.0f} MB at least without decimation, {:.0f} MB with --reduce 80%\n", megabytes({}),
                megabytes(0.8));
-    return info_json(info, census);
+    return info_json(info, census, roughness);
 }
 
 /// A folder of pieces is read piece by piece.

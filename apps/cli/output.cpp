@@ -155,10 +155,30 @@ std::string samples_text(const SampleAgreement& samples, bool has_room) {
                        grouped(samples.samples), samples.dice());
 }
 
-void print_certificate(const Report& run) {
+std::string promise_text(const DenoiseReport& done, const std::optional<double>& metres) {
+    const double kept = 1 - static_cast<double>(done.changed + done.speck_samples) / static_cast<double>(done.samples);
+    std::string text = fmt::format("{:.{}f} % of {} samples keep their label", 100 * kept, kept > 0.9999 ? 4 : 2,
+                                   grouped(done.samples));
+    if (done.changed > 0)
+        text += fmt::format("; {} others, none deeper than {:.3g}{}, were stray", grouped(done.changed),
+                            done.largest_distance, metres ? ' ' + length_symbol(*metres) : "");
+    if (done.specks > 0)
+        text += fmt::format("; {} of at most {} joined their neighbours", counted(done.specks, "speck"),
+                            counted(done.largest_speck, "sample"));
+    text += fmt::format("; {} of {} labels, topology as in the labels", done.labels_left, done.labels);
+    if (done.specks > 0) text += " without specks";
+    if (done.cut_samples > 0) text += fmt::format(" and {} threads and pinholes", grouped(done.cut_samples));
+    return text;
+}
+
+void print_certificate(const Report& run, const std::optional<double>& metres) {
     const CheckReport& report = run.check;
     std::string text = report.violation_count() == 0 ? "no violations" : counts_text(report);
-    if (run.samples) text += "; " + samples_text(*run.samples, run.samples_in_room > 0);
+    const bool is_kept = run.samples && run.samples->wrong == 0;
+    if (is_kept && run.denoise.has_changes())
+        text += "; " + promise_text(run.denoise, metres);
+    else if (run.samples)
+        text += "; " + samples_text(*run.samples, run.samples_in_room > 0);
     say("checked: {}", text);
 }
 

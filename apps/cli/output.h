@@ -81,7 +81,7 @@ void print_violations(const CheckReport& report, int listed);
 /// How many samples lie in the region of their label, or of the one that --room gave them.
 std::string samples_text(const SampleAgreement& samples, bool has_room);
 /// One line on what was proved: violations, and samples that lie in another region.
-void print_certificate(const Report& report);
+void print_certificate(const Report& report, const std::optional<double>& metres);
 
 /// Prints why decimation ended before its target, if it did: on standard output, or with --quiet on standard error.
 void print_stop(const Settings& settings, const Report& report);

@@ -79,7 +79,7 @@ std::string files_text(const Settings& settings) {
 }
 
 /// What needs attention first; then three lines: what was made, what was proved, where it lies.
-void print_summary(const Settings& settings, const Reconstruction& made) {
+void print_summary(const Settings& settings, const Reconstruction& made, const std::optional<double>& metres) {
     const Report& report = made.report;
     const CheckReport& check = report.check;
     print_details(report);
@@ -89,13 +89,14 @@ void print_summary(const Settings& settings, const Reconstruction& made) {
     print_volumes(report.preserved);
     print_memory(settings.reconstruct, report);
     print_violations(check, 0);
+    if (report.denoise.roughness || !report.denoise.refused.empty()) say("{}", report.denoise.text());
     if (report.samples_in_room > 0)
         say("{} changed the label within --room", counted(report.samples_in_room, "sample"));
     say("made: {}, {}, {} (from {} faces); quality lowest {:.3f}, mean {:.3f}{}",
         counted(check.regions.size(), "region"), counted(report.final_faces, "face"),
         counted(report.final_vertices, "vertex"), grouped(report.initial_faces), check.quality.min, check.quality.mean,
         background_text(settings, made));
-    print_certificate(report);
+    print_certificate(report, metres);
     say("written: {}; {:.2f} s, {} MB of memory", files_text(settings), report.seconds.at("total"),
         grouped(report.peak_bytes / 1000000));
 }
@@ -150,6 +151,50 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, co
     });
 }
 
+/// A sample that has another label in the model than in the input, by its number with x fastest, then y.
+struct ChangedSample {
+    std::uint64_t number;
+    InputLabel label;
+};
+
+std::vector<ChangedSample> changed_samples(const Settings& settings) {
+    const auto given = open_volume(settings, settings.inputs);
+    const auto modelled = modelled_sections(open_volume(settings, settings.inputs), settings.reconstruct);
+    const auto& axes = given->info().sweep.axes;
+    const auto& size = given->info().lattice.size;
+    const std::array<std::uint64_t, 3> steps{1, size[0], std::uint64_t{size[0]} * size[1]};
+    const auto step = [&](std::size_t axis) { return steps[static_cast<std::size_t>(axes[axis])]; };
+    std::vector<InputLabel> before(std::size_t{given->section_width()} * given->section_height()), after(before.size());
+    std::vector<ChangedSample> changed;
+    for (std::uint64_t s = 0; given->next(before) && modelled->next(after); ++s)
+        for (std::uint64_t n = 0; n < before.size(); ++n)
+            if (before[n] != after[n])
+                changed.push_back(
+                    {n % given->section_width() * step(0) + n / given->section_width() * step(1) + s * step(2),
+                     after[n]});
+    std::ranges::sort(changed, {}, &ChangedSample::number);
+    return changed;
+}
+
+/// The volume that was modelled. It is written along z, and was changed along the sweep of the model.
+void write_modelled_labels(const Settings& settings) {
+    const std::vector<ChangedSample> changed = changed_samples(settings);
+    Settings along_z = settings;
+    along_z.volume.sweep = SweepChoice::kZ;
+    const auto reader = open_volume(along_z, settings.inputs);
+    const VolumeInfo& info = reader->info();
+    const auto writer = create_volume(settings.write_labels, info.lattice, coordinates_of(info), info.type,
+                                      settings.writing, info.type == SampleType::kU64);
+    std::vector<InputLabel> section(std::size_t{reader->section_width()} * reader->section_height());
+    auto next = changed.begin();
+    for (std::uint64_t first = 0; reader->next(section); first += section.size()) {
+        for (; next != changed.end() && next->number < first + section.size(); ++next)
+            section[next->number - first] = next->label;
+        writer->write(section);
+    }
+    writer->commit();
+}
+
 }  // namespace
 
 int run_reconstruct(const Settings& settings) {
@@ -181,8 +226,9 @@ int run_reconstruct(const Settings& settings) {
     const Model model{made.mesh, made.labels, made.background, names, colours, notes.coordinates};
     write_report_and_page(kReconstruct, settings, report, model, files);
     files.commit();
+    if (!settings.write_labels.empty()) write_modelled_labels(settings);
     print_region_files(settings, written);
-    print_summary(settings, made);
+    print_summary(settings, made, notes.coordinates.metres);
     return exit_code(report);
 }
 

@@ -35,14 +35,15 @@ struct Settings {
     ReadMeshOptions surface;
     bool hull = false;
 
-    ReconstructOptions reconstruct;  // the other commands copy from it what they need
-    std::optional<double> scale;     // unit of nifpms in smooth; none: the mean edge length
+    ReconstructOptions reconstruct{.denoise = {}};  // the other commands copy from it what they need
+    std::optional<double> scale;                    // unit of nifpms in smooth; none: the mean edge length
     std::uint64_t samples = CompareOptions{}.samples;
 
     InputLabel outside = 0;  // of samples in no region, when a model is voxelised
 
     std::optional<double> metres;  // in a unit of length of the input
 
+    std::string write_labels;                                                                          // file
     std::string output, names, report, json, distance, html, regions, interfaces, lines, log, config;  // files
     std::uint32_t preview_faces = PageOptions{}.preview_faces;
     OutputOptions writing;

@@ -3,10 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "regionmesh/census.h"
+#include "regionmesh/denoise.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/limits.h"
 #include "regionmesh/mesh.h"
@@ -29,7 +32,9 @@ struct ReconstructOptions {
                              // improve or preserve_volume, keeps usual_quality_bound (docs/explanation/decimate.md)
     double room = 0;  // of sections: samples nearer than this to the boundary of their region, in finest spacings, may
                       // change their label first, for noisy labels (docs/explanation/smoothing.md); at most 8; 0: none
-    CellKind cells = CellKind::kAuto;  // of sections: how they are meshed
+    DenoiseOptions denoise{.distance = 0};  // of sections: rough labels are made smoother first, with the topology that
+                                            // they have. Its threads are set from the run; off with `room`
+    CellKind cells = CellKind::kAuto;       // of sections: how they are meshed
     double scale_z = 1;  // of sections: z is multiplied by the nearest power of two while positions, costs, qualities
                          // and errors are computed; the model is not scaled. Tetrahedra have their own
     SmoothOptions smooth = {};                          // its scale, quality, tests and threads are set from the run
@@ -79,6 +84,12 @@ CellKind cell_kind(const ReconstructOptions& options);
 /// The least ReconstructOptions::memory, in bytes, with which reconstruct() accepts the volume. The census was taken of
 /// the same volume, after ReconstructOptions::room, with the same caps, background and cells.
 std::uint64_t least_memory(const VolumeInfo& volume, const Census& census, const ReconstructOptions& options);
+
+/// The sections with the labels that reconstruct() gives to its model: as ReconstructOptions::room, or else
+/// ReconstructOptions::denoise, changes them; `reader` itself where neither is asked for. For what is compared with
+/// such a model.
+std::unique_ptr<SectionReader> modelled_sections(std::unique_ptr<SectionReader> reader,
+                                                 const ReconstructOptions& options);
 
 /// Reads all sections, builds the mesh on the fly within the memory, decimates it to the target and checks it. Sections
 /// that can be read twice are read first to count faces and to plan memory. With more than one thread, the reader is

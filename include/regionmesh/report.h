@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "regionmesh/check.h"
+#include "regionmesh/denoise.h"
 #include "regionmesh/improve.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
@@ -38,6 +39,7 @@ struct Report {
     std::optional<ImproveResult> improved;            // where ReconstructOptions::improve asked for it
     double error_bound = 0;  // no point of the surface before or after decimation is farther from the other
     CheckReport check;
+    DenoiseReport denoise;                   // what ReconstructOptions::denoise found and changed
     std::uint64_t samples_in_room = 0;       // changed by ReconstructOptions::room, before anything else
     std::optional<SampleAgreement> samples;  // of sections; none where they cannot be read again, or the box is open
 };

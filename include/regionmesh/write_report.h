@@ -11,6 +11,7 @@
 
 #include "regionmesh/census.h"
 #include "regionmesh/compare.h"
+#include "regionmesh/denoise.h"
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/mesh.h"
@@ -60,7 +61,7 @@ ModelSize size_of(const Mesh& mesh);
 /// What `info --json` writes about a volume, about points or tetrahedra, and about a surface model: JSON text like
 /// report_json(); docs/reference/report.md lists the keys. The mesh of `file` is not looked at. `report` is the check
 /// of the model; its violations are not written.
-std::string info_json(const VolumeInfo& info, const Census& census);
+std::string info_json(const VolumeInfo& info, const Census& census, const std::optional<Roughness>& roughness = {});
 std::string info_json(const TetrahedraInfo& info, const TetrahedronCensus& census);
 std::string info_json(const std::string& source, const MeshFile& file, const ModelSize& size,
                       const CheckReport& report);

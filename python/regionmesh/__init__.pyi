@@ -178,6 +178,8 @@ def reconstruct(
     smooth_filter: Literal["auto", "lattice", "taubin", "laplacian", "nifpms", "none"] | None = None,
     smooth_lambda: float | None = None,
     room: float | None = None,
+    denoise: str | None = None,
+    specks: str | None = None,
     smooth_points: bool | None = None,
     preserve_volume: bool | None = None,
     min_quality: float | None = None,

@@ -329,7 +329,7 @@ class Mesh:
         labels : array_like, path or image, optional
             The labels that the model was made from, as in `reconstruct`: the model is compared with them, too. `roi`,
             `downsample` and all else that chose samples for the model chooses them here, too; samples already so
-            chosen are taken as they are. `room` changes labels as it did for the model. A volume in another space is
+            chosen are taken as they are. `room` and `denoise` change labels as they did for the model. A volume in another space is
             turned into that of the model.
         spacing, origin, direction : optional
             As in `reconstruct`; default: those the model was made with.
@@ -357,8 +357,8 @@ class Mesh:
             source = opened(labels, (spacing, origin, direction))
             self._require_same_size(source.info)
             self._warn_of_units("check", "labels", source.info["metres"])
-        room = (self._lattice or {}).get("made", {}).get("room", 0)
-        return json.loads(_core.check(self._model, threads, source, room))
+        changes = (self._lattice or {}).get("made", {}).get("changes", [("denoise", "off")])
+        return json.loads(_core.check(self._model, threads, source, changes))
 
     def _require_same_size(self, info):
         own = (self._lattice or {}).get("size", info["size"])

@@ -53,8 +53,8 @@ def _from_files(labels, options, kept, described, progress):
 
 def _made(options, chosen, kept, place, size):
     """What Mesh.check needs to choose the same samples again."""
-    room = float(dict(options).get("room", 0))
-    return {"selection": chosen, "kept": kept, "place": place, "size": list(size), "room": room}
+    changes = [pair for pair in options if pair[0] in ("room", "denoise", "specks")]
+    return {"selection": chosen, "kept": kept, "place": place, "size": list(size), "changes": changes}
 
 
 def reconstruct(

@@ -251,7 +251,8 @@ Model smoothed(const Model& model, const OptionValues& options, Watch& watch) {
     return made;
 }
 
-std::string check_text(const Model& given, std::uint32_t threads, Source* source, double room, Watch& watch) {
+std::string check_text(const Model& given, std::uint32_t threads, Source* source, const OptionValues& changes,
+                       Watch& watch) {
     std::string text;
     watch.run([&] {
         std::optional<Model> restored;
@@ -262,7 +263,7 @@ std::string check_text(const Model& given, std::uint32_t threads, Source* source
         options.label_text = [&labels](Label label) { return labels.text(labels.input(label)); };
         std::optional<SampleAgreement> samples;
         if (source != nullptr) {
-            source->reader = clean_sections(std::move(source->reader), room, threads);
+            source->reader = modelled_sections(std::move(source->reader), settings_from(changes).reconstruct);
             WatchedSections sections(*source->reader, watch);
             const CensusOptions census{.cap = !model.is_open, .background = background_of(model), .threads = threads};
             const Census counted = count_labels(sections, census);

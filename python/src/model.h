@@ -78,7 +78,8 @@ Model simplified(const Model& model, const OptionValues& options, const std::opt
 Model smoothed(const Model& model, const OptionValues& options, Watch& watch);
 
 /// The check as JSON. With a source also against its labels, cleaned as `room` says.
-std::string check_text(const Model& model, std::uint32_t threads, Source* source, double room, Watch& watch);
+std::string check_text(const Model& model, std::uint32_t threads, Source* source, const OptionValues& changes,
+                       Watch& watch);
 /// "regions", "interfaces" or "lines": the table of `regionmesh check` as CSV.
 std::string table_text(const Model& model, const std::string& table, Watch& watch);
 std::string compare_text(const Model& a, const Model& b, const OptionValues& options, Watch& watch);

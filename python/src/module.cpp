@@ -103,11 +103,11 @@ void bind_runs(py::module_& module) {
     });
     module.def(
         "check",
-        [](const Model& model, std::uint32_t threads, Source* source, double room) {
+        [](const Model& model, std::uint32_t threads, Source* source, const OptionValues& changes) {
             Watch watch(py::none{});
-            return check_text(model, threads, source, room, watch);
+            return check_text(model, threads, source, changes, watch);
         },
-        py::arg("model"), py::arg("threads"), py::arg("source").none(true), py::arg("room"));
+        py::arg("model"), py::arg("threads"), py::arg("source").none(true), py::arg("changes"));
     module.def("table", [](const Model& model, const std::string& table) {
         Watch watch(py::none{});
         return table_text(model, table, watch);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -68,7 +69,7 @@ struct Input {
             samples = stream.get();
             file = std::move(stream);
         }
-        if (options.room > 0) cleaned.emplace(*file, options.room, options.threads);
+        clean(options);
         info = sections().info();
         require_lattice(info.source, info.lattice);
         require_cells(info);
@@ -80,7 +81,17 @@ struct Input {
         survey.background = options.background;
     }
 
-    SectionReader& sections() { return cleaned ? static_cast<SectionReader&>(*cleaned) : *file; }
+    SectionReader& sections() { return cleaned ? *cleaned : *file; }
+
+    /// Labels that nothing changes are read in place. An input that can be read once only keeps its labels.
+    void clean(const ReconstructOptions& options) {
+        if (options.room > 0) {
+            cleaned = std::make_unique<RoomReader>(*file, options.room, options.threads);
+        } else if (options.denoise.distance != 0 && file->info().can_rewind) {
+            auto denoised = std::make_unique<DenoisedSections>(*file, denoise_options(options));
+            if (denoised->report().has_changes()) cleaned = std::move(denoised);
+        }
+    }
 
     /// Two sections of an input that cannot be read in place, and what its reader holds.
     void require_room_for_section(const ReconstructOptions& options) const {
@@ -108,7 +119,7 @@ struct Input {
 
     std::unique_ptr<SectionReader> file;
     const FingerprintedSections* samples = nullptr;  // `file`, where it is read in one pass
-    std::optional<RoomReader> cleaned = {};
+    std::unique_ptr<SectionReader> cleaned = {};     // of `file`; none: as it is
     VolumeInfo info = {};
     SourceShape shape = {};
     bool is_in_place = false;

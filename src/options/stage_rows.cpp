@@ -10,7 +10,8 @@ namespace regionmesh {
 namespace {
 
 constexpr Range kQualities{kQualityRange.least, kQualityRange.most}, kRoom{kRoomRange.least, kRoomRange.most},
-    kPasses{0, kMostSmoothPasses}, kSampleCounts{1, 1e9}, kShareRange{0, 1}, kLengths{kLeastLength, kMostLength};
+    kDenoise{0, kMostDenoise}, kSpecks{0, static_cast<double>(kMostSpeck)}, kPasses{0, kMostSmoothPasses},
+    kSampleCounts{1, 1e9}, kShareRange{0, 1}, kLengths{kLeastLength, kMostLength};
 
 /// Passes of taubin, laplacian and nifpms, and largest blocks of lattice.
 struct Strength {
@@ -121,6 +122,40 @@ Rows smoothing_rows() {
              .unit = "finest spacings",
              .inputs = kVolumeInput | kTableInput},
             [](Settings& s) { return &s.reconstruct.room; }, kRoom),
+        special_option(
+            {.name = "denoise",
+             .help = "rough labels are made smoother first, with the topology that they have: samples at most "
+                     "this far from the boundary of their region may change their label. auto: as far as "
+                     "the roughness of the labels asks, not at all where they are clean",
+             .group = kGroup,
+             .commands = kReconstruct | kCheck,
+             .unit = "finest spacings",
+             .value = "auto|off|NUMBER",
+             .inputs = kVolumeInput | kTableInput,
+             .default_text = "auto"},
+            OptionKind::kText,
+            [](Settings& s, const std::string& flag, const std::string& text) {
+                s.reconstruct.denoise.distance = text == "auto"  ? kAutoDenoise
+                                                 : text == "off" ? 0
+                                                                 : parse_number(flag, text, kDenoise);
+            }),
+        special_option(
+            {.name = "specks",
+             .help = "parts of a label of at most this number of samples get the label round them, where the "
+                     "label has a part 20 times as large; auto: where there are many",
+             .group = kGroup,
+             .commands = kReconstruct | kCheck,
+             .unit = "samples",
+             .value = "auto|off|COUNT",
+             .inputs = kVolumeInput | kTableInput,
+             .default_text = "auto"},
+            OptionKind::kText,
+            [](Settings& s, const std::string& flag, const std::string& text) {
+                s.reconstruct.denoise.specks = text == "auto" ? kAutoSpecks
+                                               : text == "off"
+                                                   ? 0
+                                                   : static_cast<std::int64_t>(parse_count(flag, text, kSpecks));
+            }),
         option({.name = "smooth-points",
                 .help = "quadruple points move along their lines, instead of not at all; lattice always moves them",
                 .group = kGroup,

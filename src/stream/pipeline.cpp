@@ -10,6 +10,7 @@
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 #include "regionmesh/process.h"
+#include "regionmesh/select_sections.h"
 #include "stream/chunk_volumes.h"
 #include "stream/finish.h"
 #include "stream/footprint.h"
@@ -199,7 +200,29 @@ Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOpti
     return reconstruct(source, options, on_progress, on_model);
 }
 
+Reconstruction reconstruct_denoised(SectionReader& reader, const ReconstructOptions& options,
+                                    const OnProgress& on_progress, const OnModel& on_model) {
+    if (on_progress) on_progress({.stage = "denoise"});
+    double seconds = 0;
+    std::optional<DenoisedSections> denoised;
+    {
+        const Timer timer(seconds);
+        denoised.emplace(reader, denoise_options(options));
+    }
+    Reconstruction result = reconstruct_sections(*denoised, options, on_progress, on_model);
+    result.report.denoise = denoised->report();
+    result.report.seconds["denoise"] = seconds;
+    result.report.seconds["total"] += seconds;
+    return result;
+}
+
 }  // namespace
+
+std::unique_ptr<SectionReader> modelled_sections(std::unique_ptr<SectionReader> reader,
+                                                 const ReconstructOptions& options) {
+    if (options.room > 0) return clean_sections(std::move(reader), options.room, options.threads);
+    return denoise_sections(std::move(reader), denoise_options(options));
+}
 
 std::uint64_t least_memory(const VolumeInfo& volume, const Census& census, const ReconstructOptions& given) {
     const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
@@ -215,6 +238,8 @@ Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& give
     require_lattice(reader.info().source, reader.info().lattice);
     require_cells(reader.info());
     const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
+    if (options.room == 0 && options.denoise.distance != 0)
+        return reconstruct_denoised(reader, options, on_progress, on_model);
     if (options.room == 0) return reconstruct_sections(reader, options, on_progress, on_model);
     RoomReader cleaned(reader, options.room, options.threads);
     Reconstruction result = reconstruct_sections(cleaned, options, on_progress, on_model);

@@ -18,6 +18,7 @@ void require_in_range(const ReconstructOptions& options) {
     if (options.reduce) require_number("reduce", *options.reduce, {0, 1, "0 to 1"});
     require_in_range(options.promises);
     require_room(options.room);
+    require_in_range(options.denoise);
     require_choice("cells", options.cells, CellKind::kTetrahedra);
     require_choice("placement", options.placement, PlacementKind::kLindstromTurk);
     if (options.strips_per_chunk == 0) throw Error(ErrorCode::kUsage, "strips_per_chunk: 0; give at least 1");
@@ -37,6 +38,12 @@ CellKind cell_kind(const ReconstructOptions& options) {
     if (options.cells != CellKind::kAuto) return options.cells;
     const bool keeps_samples = options.smooth.passes == 0 || is_lattice(options.smooth.filter);
     return keeps_samples && !options.preserve_volume ? CellKind::kCompact : CellKind::kTetrahedra;
+}
+
+DenoiseOptions denoise_options(const ReconstructOptions& options) {
+    DenoiseOptions own = options.denoise;
+    own.threads = options.threads;
+    return own;
 }
 
 double section_scale(const VolumeInfo& volume, const ReconstructOptions& options) {

@@ -16,6 +16,9 @@ ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter a
 /// Are sections smoothed inside the lattice, which keeps every sample? kAuto is this filter, too.
 bool is_lattice(SmoothFilter filter);
 
+/// For the sections of a run.
+DenoiseOptions denoise_options(const ReconstructOptions& options);
+
 /// The factor of z of sections that the options ask for: a power of two, so that scaling is exact. Throws Error(kUsage)
 /// for one out of bounds.
 double section_scale(const VolumeInfo& volume, const ReconstructOptions& options);

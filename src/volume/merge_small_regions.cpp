@@ -1,5 +1,7 @@
 // Three passes: number the regions and count their samples; measure the interfaces of small ones; give out new labels.
+#include <algorithm>
 #include <array>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -11,21 +13,63 @@
 namespace regionmesh {
 namespace {
 
-class MergedSections : public SectionReader {
+/// Which parts join a neighbour: those of fewer than `min_samples` samples, or, with `specks`, those of which the label
+/// has a part kLargerPart times as large.
+struct SmallParts {
+    std::uint64_t min_samples = 0;
+    std::optional<SpeckSize> specks = {};
+};
+
+class MergedSections : public SpecklessSections {
 public:
-    MergedSections(ReaderPointer reader, std::uint64_t min_samples)
-        : reader_(std::move(reader)),
+    MergedSections(ReaderPointer reader, const SmallParts& parts)
+        : own_(std::move(reader)),
+          reader_(own_.get()),
+          parts_(parts),
           info_(reader_->info()),
-          numbers_(reader_->section_width(), reader_->section_height()),
-          section_(std::size_t{section_width()} * section_height()),
-          small_({info_.type == SampleType::kU64}) {
+          numbers_(1, 1),
+          small_({}) {
+        prepare();
+    }
+    MergedSections(SectionReader& reader, const SmallParts& parts)
+        : reader_(&reader), parts_(parts), info_(reader.info()), numbers_(1, 1), small_({}) {
+        prepare();
+    }
+
+    const VolumeInfo& info() const override { return info_; }
+
+    bool next(std::span<InputLabel> section) override {
+        if (!reader_->next(section)) return false;
+        changed_.clear();
+        numbers_.next(section, [](std::uint32_t, std::uint32_t) {});
+        std::uint32_t sample = 0;
+        for (std::uint32_t v = 0; v < section_height(); ++v)
+            for (std::uint32_t u = 0; u < section_width(); ++u, ++sample)
+                if (const std::uint32_t small = small_of_[numbers_.number(u, v)]; small != RegionNumbers::kNone) {
+                    section[sample] = labels_[small];
+                    if (parts_.specks) changed_.push_back(sample);
+                }
+        return true;
+    }
+
+    void rewind() override { restart(); }
+
+    const SpeckCounts& counts() const override { return counts_; }
+    std::span<const std::uint32_t> changed() const override { return changed_; }
+
+private:
+    void prepare() {
+        numbers_ = RegionNumbers(section_width(), section_height());
+        section_.resize(std::size_t{section_width()} * section_height());
+        small_ = SmallRegions({info_.type == SampleType::kU64});
         if (!info_.can_rewind)
             throw Error(ErrorCode::kInput, info_.source +
                                                ": small regions are found by reading the input several times, "
                                                "and it can be read once; leave out --min-region");
-        count_samples(min_samples);
+        restart();
+        count_samples();
         measure_interfaces();
-        labels_ = small_.resolve(min_samples);
+        labels_ = small_.resolve(parts_.specks ? counts_.largest + 1 : parts_.min_samples);
         small_ = SmallRegions({});
         restart();
         constexpr std::uint64_t kLayers = 2 * (sizeof(InputLabel) + sizeof(std::uint32_t));
@@ -34,22 +78,43 @@ public:
                            labels_.size() * sizeof(InputLabel);
     }
 
-    const VolumeInfo& info() const override { return info_; }
-
-    bool next(std::span<InputLabel> section) override {
-        if (!reader_->next(section)) return false;
-        numbers_.next(section, [](std::uint32_t, std::uint32_t) {});
-        auto to = section.begin();
-        for (std::uint32_t v = 0; v < section_height(); ++v)
-            for (std::uint32_t u = 0; u < section_width(); ++u, ++to)
-                if (const std::uint32_t small = small_of_[numbers_.number(u, v)]; small != RegionNumbers::kNone)
-                    *to = labels_[small];
-        return true;
+    /// Samples of the largest part of each label.
+    std::unordered_map<InputLabel, std::uint64_t> largest_parts(const std::vector<std::uint64_t>& samples,
+                                                                const std::vector<InputLabel>& labels) {
+        std::unordered_map<InputLabel, std::uint64_t> largest;
+        for (std::uint32_t n = 0; n < parents_.size(); ++n)
+            if (root(n) == n) {
+                std::uint64_t& most = largest[labels[n]];
+                most = std::max(most, samples[n]);
+            }
+        return largest;
     }
 
-    void rewind() override { restart(); }
+    /// Specks by size tell noise from small parts: noise has fewer of each size than of the size before, down to none.
+    void find_specks(const std::vector<std::uint64_t>& samples, const std::vector<InputLabel>& labels) {
+        const auto largest = largest_parts(samples, labels);
+        const auto is_speck = [&](std::uint32_t n, std::uint64_t most) {
+            return root(n) == n && samples[n] <= most && largest.at(labels[n]) >= kLargerPart * samples[n];
+        };
+        std::uint64_t most = parts_.specks->most;
+        if (most == 0) {
+            std::array<std::uint64_t, kMostFoundSpeck + 2> by_size{};
+            for (std::uint32_t n = 0; n < parents_.size(); ++n)
+                if (is_speck(n, kMostFoundSpeck)) ++by_size[samples[n]];
+            while (most < kMostFoundSpeck && by_size[most + 1] > 0 &&
+                   (most == 0 || by_size[most + 1] <= 2 * by_size[most] + 2))
+                ++most;
+        }
+        is_small_.assign(parents_.size(), false);
+        for (std::uint32_t n = 0; n < parents_.size(); ++n)
+            if (is_speck(n, most)) {
+                is_small_[n] = true;
+                ++counts_.specks;
+                counts_.samples += samples[n];
+                counts_.largest = std::max(counts_.largest, samples[n]);
+            }
+    }
 
-private:
     void restart() {
         reader_->rewind();
         numbers_.restart();
@@ -61,7 +126,7 @@ private:
     }
 
     /// Pass 1: small_of_ and the sizes in small_.
-    void count_samples(std::uint64_t min_samples) {
+    void count_samples() {
         std::vector<std::uint64_t> samples;
         std::vector<InputLabel> labels;
         while (reader_->next(section_)) {
@@ -88,13 +153,15 @@ private:
         }
         for (std::uint32_t n = 0; n < parents_.size(); ++n)
             if (const std::uint32_t top = root(n); top != n) samples[top] += samples[n];
+        if (parts_.specks) find_specks(samples, labels);
         small_of_.assign(parents_.size(), RegionNumbers::kNone);
         for (std::uint32_t n = 0; n < parents_.size(); ++n) {  // a root is the smallest number of its region
             const std::uint32_t top = root(n);
-            if (samples[top] < min_samples)
+            if (parts_.specks ? is_small_[top] : samples[top] < parts_.min_samples)
                 small_of_[n] = top == n ? small_.add(labels[n], samples[n]) : small_of_[top];
         }
         parents_ = {};
+        is_small_ = {};
     }
 
     /// Pass 2: the contacts in small_.
@@ -120,20 +187,29 @@ private:
         }
     }
 
-    ReaderPointer reader_;
+    ReaderPointer own_ = {};
+    SectionReader* reader_;
+    SmallParts parts_;
+    SpeckCounts counts_ = {};
     VolumeInfo info_;
     RegionNumbers numbers_;
     std::vector<InputLabel> section_;
     std::vector<std::uint32_t> parents_;   // parents of the first pass: numbers of one region
     std::vector<std::uint32_t> small_of_;  // one per number: its small region, or kNone
     SmallRegions small_;
-    std::vector<InputLabel> labels_;  // labels of small regions
+    std::vector<bool> is_small_;          // one per number, of the first pass with specks
+    std::vector<InputLabel> labels_;      // labels of small regions
+    std::vector<std::uint32_t> changed_;  // samples of the last section that were in specks
 };
 
 }  // namespace
 
 ReaderPointer merge_small_regions(ReaderPointer reader, std::uint64_t min_samples) {
-    return std::make_unique<MergedSections>(std::move(reader), min_samples);
+    return std::make_unique<MergedSections>(std::move(reader), SmallParts{.min_samples = min_samples});
+}
+
+std::unique_ptr<SpecklessSections> merge_specks(SectionReader& reader, const SpeckSize& size) {
+    return std::make_unique<MergedSections>(reader, SmallParts{.specks = size});
 }
 
 }  // namespace regionmesh

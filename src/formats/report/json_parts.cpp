@@ -27,6 +27,13 @@ void put_unit(const std::optional<double>& metres, Json& json) {
     if (metres) json["unit"] = length_symbol(*metres);
 }
 
+void put_roughness(const Roughness& roughness, Json& json) {
+    json["roughness"] = {{"text", roughness.text()},
+                         {"enlarged", roughness.enlarged},
+                         {"ragged", roughness.ragged},
+                         {"stray", roughness.stray}};
+}
+
 std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
 
 }  // namespace regionmesh

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "regionmesh/check.h"
+#include "regionmesh/denoise.h"
 #include "regionmesh/label_table.h"
 
 namespace regionmesh {
@@ -19,6 +20,9 @@ Json label_json(InputLabel label, const LabelTable& labels);
 
 /// `unit` of length, where it is known.
 void put_unit(const std::optional<double>& metres, Json& json);
+
+/// `roughness` of labels.
+void put_roughness(const Roughness& roughness, Json& json);
 
 /// Two spaces of indent, a newline at the end; a number that is not finite is null.
 std::string text_of(const Json& json);

@@ -34,7 +34,7 @@ Json three(Vec3 v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
-std::string info_json(const VolumeInfo& info, const Census& census) {
+std::string info_json(const VolumeInfo& info, const Census& census, const std::optional<Roughness>& roughness) {
     const Lattice& lattice = info.lattice;
     Json json{{"kind", "volume"},
               {"file", info.source},
@@ -49,6 +49,7 @@ std::string info_json(const VolumeInfo& info, const Census& census) {
               {"unsimplified_faces", census.face_count},
               {"region_pairs", census.oracle.region_pairs}};
     put_unit(info.metres, json);
+    if (roughness) put_roughness(*roughness, json);
     return text_of(json);
 }
 

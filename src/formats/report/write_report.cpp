@@ -134,6 +134,20 @@ void put_samples(Json& json, const SampleAgreement& samples, const LabelTable& l
     }
 }
 
+Json denoise_json(const DenoiseReport& done, const LabelTable& labels) {
+    Json json{{"specks", done.specks},
+              {"speck_samples", done.speck_samples},
+              {"largest_speck", done.largest_speck},
+              {"samples_changed", done.changed},
+              {"samples_cut", done.cut_samples},
+              {"largest_distance", done.largest_distance}};
+    if (done.roughness) put_roughness(*done.roughness, json);
+    Json& regions = json["regions"] = Json::array();
+    for (const auto& [label, change] : done.regions)
+        regions.push_back({{"label", label_json(label, labels)}, {"gained", change.gained}, {"lost", change.lost}});
+    return json;
+}
+
 /// Each option by its name: a text, or a list of texts where it was given several times.
 Json options_json(const std::vector<std::pair<std::string, std::string>>& options) {
     Json json = Json::object();
@@ -167,6 +181,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
     for (std::size_t i = 0; i < report.verdicts.size(); ++i) verdicts[kVerdictNames[i]] = report.verdicts[i];
     json["refreshes"] = report.refreshes;
     json["samples_in_room"] = report.samples_in_room;
+    json["denoise"] = denoise_json(report.denoise, labels);
     json["stopped"] = to_string(report.stopped);
     if (report.quality_bound) json["quality_bound"] = *report.quality_bound;
     json["error_bound"] = report.error_bound;

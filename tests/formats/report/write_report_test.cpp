@@ -41,7 +41,7 @@ TEST(ReportJson, has_all_keys_and_no_others) {
                 testing::UnorderedElementsAre(
                     "quality_bound", "smoothed_lines", "initial_faces", "initial_vertices", "final_faces",
                     "final_vertices", "unit", "error_bound", "seconds", "stage_bytes", "peak_bytes", "peak_faces",
-                    "bytes_per_face", "verdicts", "refreshes", "samples_in_room", "stopped", "smoothing",
+                    "bytes_per_face", "verdicts", "refreshes", "samples_in_room", "denoise", "stopped", "smoothing",
                     "volumes_preserved", "quality", "regions", "triple_lines", "region_pairs", "pinned_vertices",
                     "quadruple_points_inside", "violations", "violation_counts"));
     EXPECT_THAT(keys_of(json["quality"]),
