@@ -199,7 +199,7 @@ void print_summary(const Settings& settings, const BlockReport& report) {
     checked.samples = report.samples;
     checked.samples_in_room = settings.reconstruct.room > 0;
     print_violations(report.check, 0);
-    print_certificate(checked);
+    print_certificate(checked, std::nullopt);
     if (!report.samples && settings.reconstruct.cap)
         say("samples not compared: they are no longer there, or a section does not fit in --memory; regionmesh check "
             "--sections does it");

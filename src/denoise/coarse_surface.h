@@ -13,7 +13,7 @@ namespace regionmesh {
 
 /// Meshes the coarse sections and smooths the surface in its lattice, strip by strip. Each fine sample that lies on
 /// another side of this surface than the coarse sample that it was copied from is a candidate. Labels are those of
-/// `labels`. Memory: the window of the lattice filter (docs/memory.md) for the coarse sections.
+/// `labels`. Memory: the window of the lattice filter (docs/explanation/memory.md) for the coarse sections.
 void find_candidates(SectionReader& coarse, const std::array<CoarseAxis, 3>& axes, LabelTable& labels,
                      std::uint32_t threads, ItemsBySection<Candidate>& candidates);
 

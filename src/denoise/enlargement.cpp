@@ -45,6 +45,25 @@ Arc shortest_arc(const std::vector<double>& positions, double factor, std::vecto
     return best;
 }
 
+struct Fit {
+    double factor;
+    Arc arc;
+};
+
+/// The factor nearby that fits best: positions near the end of a long axis drift from one step of factors to the next.
+Fit fit_near(const std::vector<double>& positions, double factor, double step, std::vector<double>& rest) {
+    constexpr int kParts = 16;
+    constexpr double kNearlyFits = 1.3, kRounding = 1e-9;
+    Fit best{factor, shortest_arc(positions, factor, rest)};
+    if (best.arc.length > kNearlyFits) return best;
+    for (int part = -kParts / 2; part <= kParts / 2; ++part) {
+        const double other = factor + part * step / kParts;
+        const Arc arc = shortest_arc(positions, other, rest);
+        if (arc.length < best.arc.length - kRounding) best = {other, arc};
+    }
+    return best;
+}
+
 /// For all positions of the arc the edge lies between the sample before and the position. Among such edges one that
 /// both lattices begin at is likely: half a sample before the first. Else the middle.
 double edge_of(const Arc& arc, double factor) {
@@ -74,12 +93,12 @@ Enlargement find_enlargement(std::span<const std::uint64_t> steps) {
     for (std::int64_t n = 0; n < tries; ++n) {
         const double factor = most - static_cast<double>(n) * step;
         if (static_cast<double>(positions.size()) < 0.5 * range / factor) continue;  // too few edges have changes
-        const Arc arc = shortest_arc(positions, factor, rest);
-        const bool fits = arc.length < 1 - kRounding;
+        const Fit fit = fit_near(positions, factor, step, rest);
+        const bool fits = fit.arc.length < 1 - kRounding;
         if (!fits && found.factor > 1) break;  // past the factors that fit
-        if (!fits || arc.length > shortest - kRounding) continue;
-        shortest = arc.length;
-        found = {factor, edge_of(arc, factor)};
+        if (!fits || fit.arc.length > shortest - kRounding) continue;
+        shortest = fit.arc.length;
+        found = {fit.factor, edge_of(fit.arc, fit.factor)};
     }
     while (found.factor > 1 && found.first_edge >= 0) found.first_edge -= found.factor;
     return found;

@@ -11,7 +11,7 @@ inline constexpr int kMostOfBump = 8;
 inline constexpr double kFewestBoundary = 1000;  // shares of fewer boundary samples mean nothing
 
 // Shares from which labels count as rough. Clean shapes and foams: 0. IN100, aal, labDCT 0.003; Zubal's head 0.0014.
-inline constexpr double kRagged = 0.001, kRaggedIfSpeckled = 0.0004;
+inline constexpr double kRagged = 0.003, kRaggedIfSpeckled = 0.0004;
 // Clean shapes: 0. Half a per cent of all samples flipped: 0.02 to 0.04.
 inline constexpr double kStray = 0.0005, kManyStrays = 0.01;
 
