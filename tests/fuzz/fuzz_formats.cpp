@@ -221,8 +221,8 @@ std::span<const Format> formats() {
             Format{"raw", "nrrd", {".raw"}, raw}, Format{"nrrd", "nrrd", {".nrrd", ".nhdr"}, volume},
             Format{"meta", "meta", {".mha", ".mhd"}, volume}, Format{"vti", "vti", {".vti"}, volume},
             Format{"more", "more", {".npz", ".mrc", ".vtk", ".am"}, volume},
-            Format{"voxels", "reports", {".vtu"}, volume},
-            Format{"inr", "inr", {".inr", ".gz"}, volume}, Format{"mgh", "mgh", {".mgh", ".mgz"}, volume},
+            Format{"voxels", "reports", {".vtu"}, volume}, Format{"inr", "inr", {".inr", ".gz"}, volume},
+            Format{"mgh", "mgh", {".mgh", ".mgz"}, volume},
             Format{"names", "names", {".txt", ".csv", ".tsv", ".label", ".ctbl", ".xml"}, names},
 #if REGIONMESH_WITH_TABLES
             Format{"points", "points", {".csv", ".tsv"}, points},

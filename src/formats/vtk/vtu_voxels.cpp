@@ -29,7 +29,7 @@ namespace {
 constexpr std::int64_t kTetrahedron = 10, kVoxel = 11, kHexahedron = 12;
 constexpr int kVoxelVolume = 6;  // of tetrahedra
 constexpr std::uint64_t kMostCells = 0x7FFFFFFF;
-constexpr std::uint64_t kMostSamplesPerCell = 8;          // of a grid with holes
+constexpr std::uint64_t kMostSamplesPerCell = 8;           // of a grid with holes
 constexpr std::size_t kMostPlanes = std::size_t{1} << 20;  // along an axis
 
 using Index = std::array<std::uint32_t, 3>;
