@@ -85,6 +85,7 @@ const std::vector<Effect> kEffects{
     {"array", "none", Part::kAny, kAll, {.source = "{data}/meshes/vtk_ascii.vtu"}},
     {"hull", "", Part::kAny, kAll, {.source = "{points}", .more = "--boundary open"}},
     {"sections", "{grains}", Part::kAny, kAll, {.source = ""}},
+    {"weld", "0.01", Part::kAny, kVoxelise, {.model = "{apart_and_turned}", .more = "--orient"}},
     {"weld", "0.01", Part::kAny, kAll, {.model = "{apart}"}},
     {"orient", "", Part::kAny, kAll, {.model = "{turned}"}},
 
@@ -298,6 +299,7 @@ protected:
         put("drill", "drill.csv", holes);
         put("apart", "apart.vtp", tetrahedron(0.001, false));
         put("turned", "turned.vtp", tetrahedron(0, true));
+        put("apart_and_turned", "apart_and_turned.vtp", tetrahedron(0.001, true));
     }
 
     void put_models() {
