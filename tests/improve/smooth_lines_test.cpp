@@ -117,8 +117,9 @@ TEST(SmoothLines, keeps_all_strata_and_the_sides_of_the_box) {
     const double ends[] = {19, 17, 21};
     test::for_vertices(mesh, [&](VertexId v) {
         for (int side = 0; side < 6; ++side)
-            if ((mesh[v].sides >> side & 1) != 0)
+            if ((mesh[v].sides >> side & 1) != 0) {
                 EXPECT_EQ(mesh.position(v)[side / 2], side % 2 == 0 ? 0 : ends[side / 2]) << "to the last bit";
+            }
     });
 }
 
@@ -153,7 +154,9 @@ TEST(SmoothLines, leaves_fixed_vertices_and_what_is_on_no_line) {
     test::for_vertices(mesh, [&](VertexId v) { mesh[v].is_fixed = false; });
     EXPECT_GT(smooth_lines(mesh, {}).moves, 0u);
     test::for_vertices(mesh, [&](VertexId v) {
-        if (vertex_labels(mesh, v).size() == 2) EXPECT_EQ(mesh.position(v), before[index(v)]);
+        if (vertex_labels(mesh, v).size() == 2) {
+            EXPECT_EQ(mesh.position(v), before[index(v)]);
+        }
     });
 }
 

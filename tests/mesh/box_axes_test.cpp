@@ -140,7 +140,7 @@ TEST(BoxAxes, models_that_were_not_turned_are_refused_where_sides_would_be_lost)
     expect_refused([&] { smooth(made.mesh, {.filter = SmoothFilter::kTaubin}); });
     EXPECT_EQ(positions(made.mesh), before);
     Reconstruction straight = test::run(test::grain_volume(kSize, 5, 3));
-    expect_refused([&] { simplify(straight.mesh, {.samples = turned_lattice(0)}); });
+    expect_refused([&] { simplify(straight.mesh, {.promises = {.samples = turned_lattice(0)}}); });
 }
 
 TEST(BoxAxes, what_is_read_gets_its_sides_and_keeps_its_position_until_it_moves) {
@@ -197,7 +197,7 @@ TEST(BoxAxes, samples_of_any_lattice_are_kept) {
                 ASSERT_TRUE(axes.samples());
                 EXPECT_EQ(axes.is_oblique(), !lattice.is_axis_aligned());
                 const SimplifyResult done =
-                    simplify(made.mesh, {.target_faces = faces / 20, .samples = axes.samples()});
+                    simplify(made.mesh, {.target_faces = faces / 20, .promises = {.samples = axes.samples()}});
                 EXPECT_GT(done.verdicts[static_cast<int>(Verdict::kSamples)], 0u);
                 axes.restore(made.mesh);
             }

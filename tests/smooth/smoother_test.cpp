@@ -111,8 +111,8 @@ TEST(Equivalence, smoothing_on_the_fly_is_smoothing_in_core_at_any_spacing) {
         test::ArrayVolume volume = test::grain_volume({9, 9, 14}, 6, 2).spaced(spacing);
         expect_smoothed_as_in_core(volume, smoothed());
         ReconstructOptions nifpms = smoothed({.filter = SmoothFilter::kNifpms});
-        nifpms.intersect_check = false;
-        nifpms.min_quality = 0;
+        nifpms.promises.intersect_check = false;
+        nifpms.promises.min_quality = 0;
         expect_smoothed_as_in_core(volume, nifpms);
     }
 }

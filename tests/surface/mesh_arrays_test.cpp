@@ -76,7 +76,7 @@ TEST(MeshArrays, of_an_open_model_have_their_rims_on_the_sides) {
     EXPECT_GT(moved, 100u);
     for (std::uint32_t v = 0; v < back.mesh.vertex_end(); ++v) back.mesh[VertexId{v}].is_fixed = false;
     const Box box{{0, 0, 0}, {13, 11, 9}};
-    simplify(back.mesh, {.target_faces = back.mesh.face_count() / 5, .bounds_regions = true, .box = box});
+    simplify(back.mesh, {.target_faces = back.mesh.face_count() / 5, .promises = {.box = box}, .bounds_regions = true});
     test::expect_sound(check(back.mesh, {.boundary_is_open = true}));
     std::uint32_t on_sides = 0;
     for (std::uint32_t v = 0; v < back.mesh.vertex_end(); ++v) {
