@@ -140,7 +140,9 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, co
         std::string grey = warning_of_grey_scale(settings, reader);
         const auto on_progress = [&](const Progress& progress) {
             // Once it is counted: a run that is refused says that alone.
-            if (!grey.empty() && std::string_view(progress.stage) != "count") warn(std::exchange(grey, {}));
+            if (!grey.empty() && std::string_view(progress.stage) != "count" &&
+                std::string_view(progress.stage) != "denoise")
+                warn(std::exchange(grey, {}));
             memory.show(progress);
             line.show(progress);
         };

@@ -83,22 +83,27 @@ struct Input {
 
     SectionReader& sections() { return cleaned ? *cleaned : *file; }
 
-    /// Labels that nothing changes are read in place. An input that can be read once only keeps its labels.
+    /// Labels that nothing changes are read in place. An input that can be read only once, or not in memory, keeps its.
     void clean(const ReconstructOptions& options) {
         if (options.room > 0) {
             cleaned = std::make_unique<RoomReader>(*file, options.room, options.threads);
-        } else if (options.denoise.distance != 0 && file->info().can_rewind) {
+        } else if (options.denoise.distance != 0 && file->info().can_rewind &&
+                   bytes_for_section(file->info()) <= options.memory) {
             auto denoised = std::make_unique<DenoisedSections>(*file, denoise_options(options));
             if (denoised->report().has_changes()) cleaned = std::move(denoised);
         }
     }
 
-    /// Two sections of an input that cannot be read in place, and what its reader holds.
+    /// Two sections, and what their reader holds.
+    static std::uint64_t bytes_for_section(const VolumeInfo& volume) {
+        const auto [u, v, w] = volume.sweep.axes;
+        const std::uint64_t section = std::uint64_t{volume.lattice.size[u]} * volume.lattice.size[v];
+        return kProcessBytes + volume.held_bytes + section * kSurveyBytesPerSample;
+    }
+
     void require_room_for_section(const ReconstructOptions& options) const {
         if (is_in_place) return;
-        const auto [u, v, w] = info.sweep.axes;
-        const std::uint64_t section = std::uint64_t{info.lattice.size[u]} * info.lattice.size[v];
-        const std::uint64_t needed = kProcessBytes + info.held_bytes + section * kSurveyBytesPerSample;
+        const std::uint64_t needed = bytes_for_section(info);
         if (needed > options.memory)
             throw Error(ErrorCode::kInput, memory_limit_text(options.memory) + ": " + info.source + " needs at least " +
                                                megabytes(needed) + " to be read; raise --memory, or change --sweep");
@@ -158,7 +163,7 @@ struct CopiedVolume {
     std::uint64_t hashes;  // fingerprint
 };
 
-/// Says that the copy is complete, until all blocks are reconstructed: what its labels and its hashes are.
+/// Says that the copy is complete, until all blocks are reconstructed.
 fs::path copied_path(const fs::path& folder) { return folder / kCopied; }
 
 /// The copy that an earlier start of the run has made; nothing where there is none.

@@ -28,7 +28,9 @@ void write_part(const PartSurvey& part, const fs::path& path, const OutputOption
         numbers.push_back(static_cast<std::uint64_t>(label));
         numbers.push_back(place);
     }
-    numbers.insert(numbers.end(), part.hashes.sums().begin(), part.hashes.sums().end());
+    std::vector<std::uint64_t> sums(part.hashes.sums().begin(), part.hashes.sums().end());
+    sums.resize(part.hashes.count());  // the last section may belong to the next part
+    numbers.insert(numbers.end(), sums.begin(), sums.end());
     numbers.push_back(fingerprint_of(numbers));
     OutputFile file(path, options);
     file.write({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof numbers[0]});

@@ -17,7 +17,7 @@ struct Candidate {
 };
 
 /// A sample of a section that changed.
-struct Change {
+struct SampleChange {
     std::uint64_t sample;
     InputLabel to;
 };

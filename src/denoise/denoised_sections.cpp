@@ -139,7 +139,7 @@ struct DenoisedSections::State {
             }
         };
         std::deque<std::vector<std::uint32_t>> specks;  // of sections not handed out yet
-        std::vector<Change> changed;
+        std::vector<SampleChange> changed;
         std::vector<bool> is_left;  // by label
         const auto hand_out = [&](std::uint32_t, const std::vector<Label>& section, const std::vector<Moving>& moving) {
             changed.clear();
@@ -219,8 +219,8 @@ struct DenoisedSections::State {
     SectionReader& reader;
     DenoiseOptions options;
     DenoiseReport report;
-    ItemsBySection<Change> changes;  // none: nothing changed
-    std::vector<Change> of_section;
+    ItemsBySection<SampleChange> changes;  // none: nothing changed
+    std::vector<SampleChange> of_section;
     std::uint32_t read = 0;  // sections
 };
 
@@ -239,7 +239,7 @@ bool DenoisedSections::next(std::span<InputLabel> section) {
     if (!state.reader.next(section)) return false;
     if (state.read < state.changes.sections()) {
         state.changes.read(state.read, state.of_section);
-        for (const Change& change : state.of_section) section[change.sample] = change.to;
+        for (const SampleChange& change : state.of_section) section[change.sample] = change.to;
     }
     ++state.read;
     return true;

@@ -238,8 +238,12 @@ Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& give
     require_lattice(reader.info().source, reader.info().lattice);
     require_cells(reader.info());
     const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
-    if (options.room == 0 && options.denoise.distance != 0)
+    if (options.room == 0 && options.denoise.distance != 0) {
+        // What cannot be read within the memory is refused before labels are looked at.
+        const VolumeInfo& info = reader.info();
+        require_room_to_read(section_shape(info, cell_kind(options), section_scale(info, options)), options);
         return reconstruct_denoised(reader, options, on_progress, on_model);
+    }
     if (options.room == 0) return reconstruct_sections(reader, options, on_progress, on_model);
     RoomReader cleaned(reader, options.room, options.threads);
     Reconstruction result = reconstruct_sections(cleaned, options, on_progress, on_model);

@@ -308,7 +308,7 @@ TEST_F(BlockProgram, a_folder_for_neuroglancer_is_scaled_by_the_unit_that_the_in
     EXPECT_EQ(refused.code, 2);
     EXPECT_THAT(refused.error, testing::HasSubstr("--units: is not for "));
     std::string manifest = text_of(fs::path(out("model")) / "manifest.json");
-    manifest.replace(manifest.find("1e-06"), 5, "-1.00");
+    manifest.replace(manifest.find("1e-06", manifest.find("\"metres")), 5, "-1.00");
     manifest.replace(manifest.find("\"checksum\""), 10, "\"unchecked\"");
     put_text(fs::path(out("model")) / "manifest.json", manifest);
     EXPECT_EQ(run("convert " + out("model") + ' ' + out("m.vtp")).code, 1);
@@ -344,8 +344,7 @@ TEST_F(BlockProgram, converts_a_folder_for_neuroglancer) {
     const Ran other = run("convert " + out("m.precomputed") + ' ' + out("again.precomputed"));
     EXPECT_EQ(other.code, 1);
     EXPECT_THAT(other.error, testing::HasSubstr("m.precomputed: holds no surfaces"));
-    for (const auto& entry : fs::recursive_directory_iterator(out("again.precomputed")))
-        EXPECT_TRUE(entry.is_directory()) << entry.path();
+    EXPECT_FALSE(fs::exists(out("again.precomputed"))) << "a folder was left";
 }
 
 TEST_F(BlockProgram, takes_a_folder_that_a_run_was_killed_in_at_once) {
@@ -404,7 +403,7 @@ TEST_F(BlockProgram, refuses_a_changed_run_in_one_line) {
     const Ran changed = run(grains("model"));
     EXPECT_EQ(changed.code, 1);
     EXPECT_THAT(changed.error, testing::HasSubstr("was begun with input 1 grains.raw, 64000 bytes, changed 2"));
-    EXPECT_THAT(changed.error, testing::HasSubstr("UTC, and this run has grains.raw, 64000 bytes, changed 2"));
+    EXPECT_THAT(changed.error, testing::HasSubstr(", and this run has grains.raw, 64000 bytes, changed 2"));
 }
 
 TEST_F(BlockProgram, refuses_changed_files_that_the_input_or_an_option_names) {
@@ -477,7 +476,7 @@ TEST_F(BlockProgram, refuses_an_input_without_cells_or_regions_and_leaves_nothin
     expect_refused(two + "--background 0,1", "all of it is background");
     expect_refused(one + "2,10,20 --boundary open", "one label only");
     expect_refused(two + "--memory 1MB", "needs at least");
-    EXPECT_TRUE(fs::is_empty(out("m")));
+    EXPECT_FALSE(fs::exists(out("m"))) << "an empty folder was left";
     EXPECT_EQ(run(two + "--quiet -o " + out("m/")).code, 0) << "the folder is as good as new";
 }
 

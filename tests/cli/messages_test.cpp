@@ -27,8 +27,8 @@ TEST_F(Messages, of_reconstruct_end_with_what_was_made_what_was_proved_and_where
     const Ran ran = run(command("--report " + out("r.json")));
     EXPECT_EQ(ran.code, 0) << ran.error;
     EXPECT_EQ(ran.error, "");
-    EXPECT_EQ(std::ranges::count(ran.out, '\n'), 3) << ran.out;
-    EXPECT_THAT(ran.out, StartsWith("made: 1 region, "));
+    EXPECT_EQ(std::ranges::count(ran.out, '\n'), 4) << ran.out;
+    EXPECT_THAT(ran.out, StartsWith("labels are clean\nmade: 1 region, "));
     EXPECT_THAT(ran.out, HasSubstr(" % of the samples are background, label 0 (--no-background makes it a region)\n"));
     EXPECT_THAT(ran.out, HasSubstr("\nchecked: no violations; every one of 729 samples keeps its label\n"));
     EXPECT_THAT(ran.out, HasSubstr("\nwritten: " + out("m.vtp") + ", report " + out("r.json") + "; "));

@@ -350,8 +350,7 @@ TEST_F(PrecomputedProgram, leaves_no_folder_that_could_be_taken_for_whole_when_i
             EXPECT_EQ(
                 run("convert " + out("model") + ' ' + out("new.precomputed") + " --precomputed " + format + more).code,
                 1);
-            for (const auto& entry : fs::recursive_directory_iterator(out("new.precomputed")))
-                EXPECT_FALSE(entry.is_regular_file()) << entry.path();
+            EXPECT_FALSE(fs::exists(out("new.precomputed"))) << "a folder was left";
         }
     }
 }

@@ -63,6 +63,7 @@ const std::vector<Effect> kEffects{
     {"merge", "{merge}"},
     {"labels", "1,2,3"},
     {"downsample", "2"},
+    {"min-region", "20", Part::kAny, kCheck, {.more = "--denoise off"}},
     {"min-region", "20"},
     {"columns", "X=a,Y=b,Z=c,LABEL=label", Part::kAny, kAll, {.source = "{columns}"}},
     {"step", "0.7", Part::kAny, kAll, {.source = "{drill}", .model = "{model_of_drill}"}},
@@ -304,7 +305,7 @@ protected:
 
     void put_models() {
         const std::pair<std::string, std::string> models[] = {
-            {"model", "{grains} --smooth off"},
+            {"model", "{grains} --smooth off --denoise off"},
             {"other", "{grains} --reduce 50%"},
             {"open", "{grains} --smooth off --boundary open"},
             {"without_background", "{grains} --smooth off --no-background"},

@@ -257,7 +257,7 @@ TEST_F(ReadNiftiTest, reading_a_compressed_file_ends_near_the_last_sample) {
     };
     EXPECT_THAT(read(cut_off(std::size_t{3} << 20)), HasSubstr("the rest was not read, nor its checksum compared"));
     EXPECT_THROW(read(cut_off(1000)), Error) << "the checksum is near";
-    EXPECT_EQ(read(gzipped("t.nii.gz", volume + std::string(1000, '\0'))), "");
+    EXPECT_THAT(read(gzipped("t.nii.gz", volume + std::string(1000, '\0'))), testing::Not(HasSubstr("checksum")));
 }
 
 }  // namespace
