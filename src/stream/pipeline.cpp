@@ -209,7 +209,11 @@ Reconstruction reconstruct_denoised(SectionReader& reader, const ReconstructOpti
         const Timer timer(seconds);
         denoised.emplace(reader, denoise_options(options));
     }
-    Reconstruction result = reconstruct_sections(*denoised, options, on_progress, on_model);
+    // Labels that nothing changes are read as they are: the plan then needs no memory for more.
+    const bool is_changed = denoised->report().has_changes() || !reader.info().can_rewind;
+    if (!is_changed) reader.rewind();
+    SectionReader& sections = is_changed ? static_cast<SectionReader&>(*denoised) : reader;
+    Reconstruction result = reconstruct_sections(sections, options, on_progress, on_model);
     result.report.denoise = denoised->report();
     result.report.seconds["denoise"] = seconds;
     result.report.seconds["total"] += seconds;
