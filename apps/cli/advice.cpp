@@ -123,24 +123,24 @@ void warn_of_passes(const Settings& settings) {
     if (given_text(settings, "smooth-lambda")) warn_of("--smooth-lambda", "has no passes");
 }
 
-std::string warning_of_grey_scale(const Settings& settings, SectionReader& reader) {
-    if (!reader.info().can_rewind) return {};
+void warn_of_grey_scale(const Settings& settings, SectionReader& reader) {
+    if (!reader.info().can_rewind) return;
     const std::uint64_t samples = std::uint64_t{reader.section_width()} * reader.section_height();
     // A section that leaves no room for reconstruct() is refused there, before it is read.
     constexpr std::uint64_t kBytesPerSample = 64;
-    if (samples > settings.reconstruct.memory / kBytesPerSample) return {};
+    if (samples > settings.reconstruct.memory / kBytesPerSample) return;
     reader.rewind();
     GreyCount count;
     std::vector<InputLabel> section(samples);
     for (std::uint32_t n = 0; n < kGreySections && count.samples < kGreySamples && reader.next(section); ++n)
         count.add(section, reader.section_width(), settings.reconstruct.background);
     reader.rewind();
-    if (!count.is_grey()) return {};
-    return fmt::format(
+    if (!count.is_grey()) return;
+    warn(fmt::format(
         "{} looks like a grey-scale image, not like labels: {} values and more, and {:.0f} % of the samples "
         "differ from their neighbours; segment it first, and give the labels",
         reader.info().source, count.values.size(),
-        100 * static_cast<double>(count.alone) / static_cast<double>(count.samples));
+        100 * static_cast<double>(count.alone) / static_cast<double>(count.samples)));
 }
 
 std::string background_text(const Settings& settings, const Reconstruction& made) {

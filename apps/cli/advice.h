@@ -24,11 +24,11 @@ void warn_of_passes(const Settings& settings);
 void warn_of_units(const std::string& a, const std::optional<double>& metres_a, const std::string& b,
                    const std::optional<double>& metres_b);
 
-/// A line where the sections look like a grey-scale image: many values, and samples that differ from all four
-/// neighbours in their section, which labels have few of; else empty. Reads sections until it has seen enough, at most
+/// Warns where the sections look like a grey-scale image: many values, and samples that differ from all four
+/// neighbours in their section, which labels have few of. Reads sections until it has seen enough, at most
 /// kGreySections, and rewinds before and after; does nothing where the reader cannot.
-std::string warning_of_grey_scale(const Settings& settings, SectionReader& reader);
-inline std::string warning_of_grey_scale(const Settings&, TetrahedronReader&) { return {}; }
+void warn_of_grey_scale(const Settings& settings, SectionReader& reader);
+inline void warn_of_grey_scale(const Settings&, TetrahedronReader&) {}
 
 /// "; 66.7 % of the samples are background, label 0 (...)": which share, and why. Empty where there is none, or the
 /// samples were not counted.

@@ -198,7 +198,9 @@ void print_summary(const Settings& settings, const BlockReport& report) {
     checked.check = report.check;
     checked.samples = report.samples;
     checked.samples_in_room = settings.reconstruct.room > 0;
+    checked.denoise = report.denoise;
     print_violations(report.check, 0);
+    print_denoised(report.denoise);
     print_certificate(checked, std::nullopt);
     if (!report.samples && settings.reconstruct.cap)
         say("samples not compared: they are no longer there, or a section does not fit in --memory; regionmesh check "

@@ -97,7 +97,10 @@ std::string print_info(const Settings& settings, SectionReader& reader) {
     const auto megabytes = [&](std::optional<double> reduce) {
         ReconstructOptions options = settings.reconstruct;
         options.reduce = reduce;
-        return std::ceil(static_cast<double>(least_memory(info, census, options)) / 1e6);
+        std::uint64_t least = least_memory(info, census, options);
+        if (roughness && options.room == 0 && options.denoise.distance != 0)
+            least = std::max(least, bytes_to_denoise(info, *roughness, options.denoise));
+        return std::ceil(static_cast<double>(least) / 1e6);
     };
     fmt::print("memory     {:.0f} MB at least without decimation, {:.0f} MB with --reduce 80%\n", megabytes({}),
                megabytes(0.8));
@@ -151,7 +154,7 @@ std::string print_input(const Settings& settings) {
         const std::string warned = reader.info().warning;
         std::string json = print_info(settings, reader);
         warn_of_rest(reader, warned);
-        if (const std::string warning = warning_of_grey_scale(settings, reader); !warning.empty()) warn(warning);
+        warn_of_grey_scale(settings, reader);
         return json;
     });
 }

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstring>
 #include <mutex>
+#include <optional>
+#include <string>
 
 #include "page_output.h"
 #include "printable.h"
@@ -21,6 +23,7 @@ struct State {
     bool is_quiet = false, is_verbose = false;
     std::FILE* log = nullptr;  // closed by the end of the process: a line is flushed as it is written
     Clock::time_point start;
+    std::optional<std::string> held = {};  // lines of warnings that wait
 };
 State state;
 std::mutex log_mutex;  // a model is written while another thread reports the check
@@ -58,7 +61,20 @@ void put_line(Audience audience, std::string_view line) {
 void warn(std::string_view text) {
     const std::string line = fmt::format("warning: {}", printable(std::string(text)));
     put_into_log(line);
-    if (!state.is_quiet) std::fputs(("regionmesh: " + line + "\n").c_str(), stderr);
+    if (state.is_quiet) return;
+    const std::string shown = "regionmesh: " + line + "\n";
+    if (state.held)
+        *state.held += shown;
+    else
+        std::fputs(shown.c_str(), stderr);
+}
+
+HeldWarnings::HeldWarnings() { state.held.emplace(); }
+HeldWarnings::~HeldWarnings() { state.held.reset(); }
+
+void HeldWarnings::show() {
+    if (state.held) std::fputs(state.held->c_str(), stderr);
+    state.held.reset();
 }
 
 void log_line(const char* text) { put_into_log(text); }

@@ -34,6 +34,18 @@ void say_more(fmt::format_string<T...> format, T&&... values) {
 /// A warning on standard error and in the log; not on standard error with --quiet.
 void warn(std::string_view text);
 
+/// Warnings while it lives wait for show(), but in the log: a run that is refused says that alone.
+class HeldWarnings {
+public:
+    HeldWarnings();
+    ~HeldWarnings();  // those that were not shown are forgotten
+    HeldWarnings(const HeldWarnings&) = delete;
+    HeldWarnings& operator=(const HeldWarnings&) = delete;
+
+    /// Shows all; later ones do not wait.
+    void show();
+};
+
 /// One line for the log alone, where there is one. Allocates nothing.
 void log_line(const char* text);
 

@@ -171,6 +171,10 @@ std::string promise_text(const DenoiseReport& done, const std::optional<double>&
     return text;
 }
 
+void print_denoised(const DenoiseReport& done) {
+    if (done.roughness || !done.refused.empty()) say("{}", done.text());
+}
+
 void print_certificate(const Report& run, const std::optional<double>& metres) {
     const CheckReport& report = run.check;
     std::string text = report.violation_count() == 0 ? "no violations" : counts_text(report);

@@ -78,6 +78,8 @@ void print_improved(const Report& report);
 
 /// Prints "violation KIND: COUNT" for each kind found, and at most `listed` findings of each.
 void print_violations(const CheckReport& report, int listed);
+/// How rough the labels are and what was done about it, where they were looked at.
+void print_denoised(const DenoiseReport& done);
 /// How many samples lie in the region of their label, or of the one that --room gave them.
 std::string samples_text(const SampleAgreement& samples, bool has_room);
 /// One line on what was proved: violations, and samples that lie in another region.

@@ -89,7 +89,7 @@ void print_summary(const Settings& settings, const Reconstruction& made, const s
     print_volumes(report.preserved);
     print_memory(settings.reconstruct, report);
     print_violations(check, 0);
-    if (report.denoise.roughness || !report.denoise.refused.empty()) say("{}", report.denoise.text());
+    print_denoised(report.denoise);
     if (report.samples_in_room > 0)
         say("{} changed the label within --room", counted(report.samples_in_room, "sample"));
     say("made: {}, {}, {} (from {} faces); quality lowest {:.3f}, mean {:.3f}{}",
@@ -131,23 +131,22 @@ struct ModelNotes {
 Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, const OnModel& on_model) {
     ProgressLine line(settings.quiet);
     MemoryWarning memory(settings);
+    HeldWarnings warnings;  // until the input is counted
     return with_reader(settings, settings.inputs, [&](auto& reader) {
         const std::string warned = reader.info().warning;
         LabelColours colours;
         if constexpr (requires { reader.info().colours; }) colours = reader.info().colours;
         notes.labels = describe(settings, reader.info().names, colours);
         notes.coordinates = with_units_and_space(settings, coordinates_of(reader.info()));
-        std::string grey = warning_of_grey_scale(settings, reader);
+        warn_of_grey_scale(settings, reader);
         const auto on_progress = [&](const Progress& progress) {
-            // Once it is counted: a run that is refused says that alone.
-            if (!grey.empty() && std::string_view(progress.stage) != "count" &&
-                std::string_view(progress.stage) != "denoise")
-                warn(std::exchange(grey, {}));
+            if (const std::string_view stage = progress.stage; stage != "count" && stage != "denoise") warnings.show();
             memory.show(progress);
             line.show(progress);
         };
         Reconstruction made = reconstruct(reader, settings.reconstruct, on_progress, on_model);
         line.clear();
+        warnings.show();
         warn_of_rest(reader, warned);
         return made;
     });

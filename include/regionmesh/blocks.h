@@ -66,6 +66,7 @@ struct BlockReport {
     std::uint32_t made = 0, found = 0;  // pieces of all passes: by this process, and complete from an earlier run
     StopReason stopped = StopReason::kNoneAsked;
     double error_bound = 0;
+    DenoiseReport denoise = {};                   // without changes by region
     CheckReport check = {};                       // of the whole model, by the first process
     std::optional<SampleAgreement> samples = {};  // likewise; none where they are no longer there, or do not fit
     std::uint64_t peak_bytes = 0;                 // of this process

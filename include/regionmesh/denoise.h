@@ -26,6 +26,7 @@ struct DenoiseOptions {
                                         // spacings; 0: no sample changes, nor specks; kAutoDenoise: as rough labels ask
     std::int64_t specks = kAutoSpecks;  // samples of a speck, at most; 0: no specks
     std::uint32_t threads = 0;          // 0: one per core. The result does not depend on it
+    std::uint64_t memory = 0;           // bytes of the process; 0: no bound
 };
 
 /// What labels look like, counted in one pass.
@@ -65,6 +66,9 @@ struct DenoiseReport {
     std::string text() const;
 };
 
+/// Bytes of the process while labels of such roughness are denoised; 0 where nothing would change.
+std::uint64_t bytes_to_denoise(const VolumeInfo& volume, const Roughness& roughness, const DenoiseOptions& options);
+
 /// Reads all sections. Threads: 0 for one per core; the result is the same.
 Roughness measure_roughness(SectionReader& reader, std::uint32_t threads = 0);
 
@@ -83,7 +87,7 @@ Roughness measure_roughness(SectionReader& reader, std::uint32_t threads = 0);
 /// input that can be read once only is handed on as it is; DenoiseReport::refused says so.
 class DenoisedSections final : public SectionReader {
 public:
-    /// The first holds a reference to the reader.
+    /// The first holds a reference to the reader. Throws Error(kInput) where DenoiseOptions::memory is too little.
     DenoisedSections(SectionReader& reader, const DenoiseOptions& options);
     DenoisedSections(std::unique_ptr<SectionReader> reader, const DenoiseOptions& options);
     ~DenoisedSections() override;

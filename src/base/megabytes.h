@@ -8,6 +8,9 @@
 
 namespace regionmesh {
 
+/// The program and its libraries, and buffers of reading and writing.
+inline constexpr std::uint64_t kProcessBytes = std::uint64_t{20} << 20;
+
 /// The bytes in a megabyte, or in a kilobyte where there are fewer.
 inline std::uint64_t unit_of(std::uint64_t bytes) { return bytes < 1'000'000 ? 1000 : 1'000'000; }
 

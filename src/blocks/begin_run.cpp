@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "base/fingerprint.h"
 #include "base/megabytes.h"
 #include "blocks/block_size.h"
+#include "blocks/fingerprinted_sections.h"
 #include "blocks/manifest.h"
 #include "blocks/own_faces.h"
 #include "blocks/survey.h"
@@ -32,28 +32,6 @@ namespace regionmesh {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Sections of an input that has no name by which a run that goes on could tell it from another.
-class FingerprintedSections final : public SectionReader {
-public:
-    explicit FingerprintedSections(std::unique_ptr<SectionReader> reader) : reader_(std::move(reader)) {}
-    const VolumeInfo& info() const override { return reader_->info(); }
-    bool next(std::span<InputLabel> section) override {
-        if (!reader_->next(section)) return false;
-        for (const InputLabel label : section) fingerprint_.add(static_cast<std::uint64_t>(label));
-        return true;
-    }
-    void rewind() override {
-        reader_->rewind();
-        fingerprint_ = {};
-    }
-    /// Of the sections read so far.
-    std::uint64_t fingerprint() const { return fingerprint_.value(); }
-
-private:
-    std::unique_ptr<SectionReader> reader_;
-    Fingerprint fingerprint_;
-};
 
 /// Labels of the input and dense ones of two sections, and the row of a reader.
 constexpr std::uint64_t kSurveyBytesPerSample = 2 * sizeof(InputLabel) + 2 * sizeof(Label);
@@ -83,14 +61,20 @@ struct Input {
 
     SectionReader& sections() { return cleaned ? *cleaned : *file; }
 
-    /// Labels that nothing changes are read in place. An input that can be read only once, or not in memory, keeps its.
+    /// Labels that nothing changes are read in place. An input that can be read only once keeps its labels, and so does
+    /// one whose sections do not fit in memory.
     void clean(const ReconstructOptions& options) {
         if (options.room > 0) {
             cleaned = std::make_unique<RoomReader>(*file, options.room, options.threads);
-        } else if (options.denoise.distance != 0 && file->info().can_rewind &&
-                   bytes_for_section(file->info()) <= options.memory) {
+        } else if (options.denoise.distance != 0) {
+            denoise.emplace();
+            if (bytes_for_section(file->info()) > options.memory) {
+                denoise->refused = "a section does not fit in --memory";
+                return;
+            }
             auto denoised = std::make_unique<DenoisedSections>(*file, denoise_options(options));
-            if (denoised->report().has_changes()) cleaned = std::move(denoised);
+            *denoise = denoised->report();
+            if (denoise->has_changes()) cleaned = std::move(denoised);
         }
     }
 
@@ -125,6 +109,7 @@ struct Input {
     std::unique_ptr<SectionReader> file;
     const FingerprintedSections* samples = nullptr;  // `file`, where it is read in one pass
     std::unique_ptr<SectionReader> cleaned = {};     // of `file`; none: as it is
+    std::optional<DenoiseReport> denoise = {};       // none: labels were not looked at
     VolumeInfo info = {};
     SourceShape shape = {};
     bool is_in_place = false;
@@ -254,6 +239,7 @@ void note_survey(const Survey& found, const Input& input, const ReconstructOptio
     manifest.metres = info.metres;
     manifest.names = info.names;
     manifest.colours = info.colours;
+    manifest.denoise = input.denoise;
     manifest.background = options.background;
     manifest.scale_z = input.shape.scale_z;
     manifest.initial_faces = found.faces;

@@ -64,6 +64,7 @@ BlockReport BlockRun::run() {
     report_.final_vertices = manifest_.vertices;
     report_.stopped = manifest_.stopped;
     report_.error_bound = manifest_.error_bound;
+    if (manifest_.denoise) report_.denoise = *manifest_.denoise;
     report_.peak_bytes = peak_resident_bytes();
     return report_;
 }

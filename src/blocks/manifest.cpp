@@ -30,6 +30,25 @@ constexpr std::uint32_t kMostCells = 1u << 30;
 Json vec_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 Vec3 vec_of(const nlohmann::json& json) { return {json.at(0), json.at(1), json.at(2)}; }
 
+/// Without changes by region.
+Json json_of(const DenoiseReport& done) {
+    Json json{{"samples", done.samples},
+              {"specks", done.specks},
+              {"speck_samples", done.speck_samples},
+              {"largest_speck", done.largest_speck},
+              {"cut_samples", done.cut_samples},
+              {"changed", done.changed},
+              {"largest_distance", done.largest_distance},
+              {"labels", done.labels},
+              {"labels_left", done.labels_left}};
+    if (!done.refused.empty()) json["refused"] = done.refused;
+    if (done.roughness)
+        json["roughness"] = {{"enlarged", done.roughness->enlarged},
+                             {"ragged", done.roughness->ragged},
+                             {"stray", done.roughness->stray}};
+    return json;
+}
+
 Json json_of(const Manifest& manifest) {
     Json json{{"format", kFormat}, {"version", kVersion}};
     Json& identity = json["run"] = Json::array();
@@ -54,6 +73,7 @@ Json json_of(const Manifest& manifest) {
     for (const auto& [label, name] : manifest.names) names.push_back({label, name});
     Json& colours = json["colours"] = Json::array();
     for (const auto& [label, colour] : manifest.colours) colours.push_back({label, hex_of(colour)});
+    if (manifest.denoise) json["denoise"] = json_of(*manifest.denoise);
     json["background"] = manifest.background;
     json["block_cells"] = manifest.block_cells;
     json["shift"] = manifest.shift;
@@ -118,6 +138,29 @@ PieceEntry piece_of(const nlohmann::json& json, const fs::path& path) {
     return piece;
 }
 
+DenoiseReport denoise_of(const nlohmann::json& json, const fs::path& path) {
+    DenoiseReport done;
+    const WholeNumbers numbers(json, path);
+    numbers.get("samples", done.samples);
+    numbers.get("specks", done.specks);
+    numbers.get("speck_samples", done.speck_samples);
+    numbers.get("largest_speck", done.largest_speck);
+    numbers.get("cut_samples", done.cut_samples);
+    numbers.get("changed", done.changed);
+    numbers.get("labels", done.labels);
+    numbers.get("labels_left", done.labels_left);
+    done.largest_distance = json.at("largest_distance");
+    done.refused = json.value("refused", "");
+    if (json.contains("roughness")) {
+        const auto& roughness = json.at("roughness");
+        done.roughness.emplace();
+        done.roughness->enlarged = roughness.at("enlarged");
+        done.roughness->ragged = roughness.at("ragged");
+        done.roughness->stray = roughness.at("stray");
+    }
+    return done;
+}
+
 Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
     Manifest manifest;
     for (const auto& pair : json.at("run")) manifest.identity.emplace_back(pair.at(0), pair.at(1));
@@ -145,6 +188,7 @@ Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
     for (const auto& pair : json.at("names")) manifest.names.emplace(pair.at(0), pair.at(1));
     if (json.contains("colours"))  // added to version 1
         for (const auto& pair : json.at("colours")) manifest.colours.emplace(pair.at(0), colour_of(pair.at(1), path));
+    if (json.contains("denoise")) manifest.denoise = denoise_of(json.at("denoise"), path);
     manifest.background = json.at("background").get<std::vector<InputLabel>>();
     numbers.get("block_cells", manifest.block_cells);
     numbers.get("shift", manifest.shift);

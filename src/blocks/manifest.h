@@ -45,6 +45,7 @@ struct Manifest {
     std::optional<double> metres = {};  // in the unit of the lattice
     LabelNames names = {};
     LabelColours colours = {};
+    std::optional<DenoiseReport> denoise = {};  // without changes by region; none: labels were not looked at
     std::vector<InputLabel> background = {};
     std::uint32_t block_cells = 0;
     std::uint32_t shift = 0;  // cells by which the first blocks of `pieces` are shorter

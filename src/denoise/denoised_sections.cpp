@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/megabytes.h"
 #include "base/option_range.h"
 #include "base/parallel_for.h"
 #include "denoise/candidates.h"
@@ -14,6 +15,7 @@
 #include "denoise/sweep_window.h"
 #include "denoise/tuning.h"
 #include "regionmesh/denoise.h"
+#include "regionmesh/error.h"
 #include "regionmesh/label_table.h"
 #include "volume/chosen_sections.h"
 
@@ -69,7 +71,36 @@ Plan make_plan(const DenoiseOptions& options, const Roughness& roughness, Vec3 s
     return plan;
 }
 
+SweepOptions sweep_options(const Plan& plan, const VolumeInfo& info, std::uint32_t threads) {
+    const auto along = [&](std::size_t axis) {
+        return info.lattice.size[static_cast<std::size_t>(info.sweep.axes[axis])];
+    };
+    return {.width = along(0),
+            .height = along(1),
+            .count = along(2),
+            .sweeps = plan.distance > 0 ? plan.sweeps : 0,
+            .cuts = plan.cuts,
+            .threads = threads};
+}
+
+/// Sections on each side of one whose candidates are looked for.
+std::uint32_t reach_of(const Plan& plan, Vec3 steps) {
+    const std::uint32_t reach = BoundaryDistance(steps, plan.distance).reach();
+    return plan.deviation > 0 ? std::max(reach, SmoothLabels::reach_of(steps, plan.deviation)) : reach;
+}
+
 }  // namespace
+
+std::uint64_t bytes_to_denoise(const VolumeInfo& volume, const Roughness& roughness, const DenoiseOptions& options) {
+    const Vec3 steps = steps_of(volume);
+    const Plan plan = make_plan(options, roughness, steps, volume);
+    if (plan.distance == 0 && !plan.has_specks) return 0;
+    const SweepOptions sweeps = sweep_options(plan, volume, 1);
+    const SweepWindow window(sweeps, reach_of(plan, steps), {}, {});
+    // The section as read, twice with specks; candidates are few.
+    const std::uint64_t per_sample = window.sections() * (sizeof(Label) + 1) + 3 * sizeof(InputLabel);
+    return kProcessBytes + volume.held_bytes + std::uint64_t{sweeps.width} * sweeps.height * per_sample;
+}
 
 void require_in_range(const DenoiseOptions& options) {
     if (options.distance != kAutoDenoise)
@@ -91,8 +122,19 @@ struct DenoisedSections::State {
         report.samples = std::uint64_t{reader.section_width()} * reader.section_height() * reader.section_count();
         report.roughness = measure_roughness(reader, options.threads);
         const Plan plan = make_plan(options, *report.roughness, steps_of(info), info);
-        if (plan.distance > 0 || plan.has_specks) denoise(plan);
+        if (plan.distance > 0 || plan.has_specks) {
+            require_memory(bytes_to_denoise(info, *report.roughness, options));
+            denoise(plan);
+        }
         reader.rewind();
+    }
+
+    void require_memory(std::uint64_t needed) const {
+        if (options.memory == 0 || needed <= options.memory) return;
+        throw Error(ErrorCode::kInput, memory_limit_text(options.memory) + ": " + reader.info().source +
+                                           " needs at least " + megabytes(needed) + ", since its labels are " +
+                                           report.roughness->text() +
+                                           "; raise --memory, or keep them with --denoise off");
     }
 
     void denoise(const Plan& plan) {
@@ -157,13 +199,7 @@ struct DenoisedSections::State {
             for (const Label label : section)
                 if (!is_left[label]) is_left[label] = true;
         };
-        SweepWindow window({.width = width,
-                            .height = height,
-                            .count = reader.section_count(),
-                            .sweeps = plan.distance > 0 ? plan.sweeps : 0,
-                            .cuts = plan.cuts,
-                            .threads = options.threads},
-                           std::max(distance.reach(), plan.deviation > 0 ? smooth.reach() : 0), find, hand_out);
+        SweepWindow window(sweep_options(plan, reader.info(), options.threads), reach_of(plan, steps), find, hand_out);
         std::vector<InputLabel> input(std::size_t{width} * height);
         for (std::uint32_t s = 0; s < reader.section_count(); ++s) {
             require_section(from.next(input), from.info(), s);

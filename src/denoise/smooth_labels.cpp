@@ -7,6 +7,9 @@
 namespace regionmesh {
 namespace {
 
+/// Distance at which weights round a sample end, in standard deviations.
+constexpr double kCutOff = 2;
+
 /// Calls visit(step, length) for all steps no longer than `radius`.
 template <class Visit>
 void for_steps(Vec3 spacing, double radius, Visit&& visit) {
@@ -46,14 +49,16 @@ float BoundaryDistance::of(const LabelWindow& window, std::int64_t i, std::int64
 }
 
 SmoothLabels::SmoothLabels(Vec3 spacing, double deviation, const LabelTable& labels) : labels_(labels) {
-    constexpr double kCutOff = 2;
     for_steps(spacing, kCutOff * deviation, [&](LabelStep step, double far) {
         step.value = static_cast<float>(std::exp(-far * far / (2 * deviation * deviation)));
         kernel_.push_back(step);
-        reach_ = std::max(reach_, static_cast<std::uint32_t>(std::abs(step.k)));
     });
     // The sample itself first; the order decides how weights are summed.
     std::ranges::stable_sort(kernel_, std::greater(), &LabelStep::value);
+}
+
+std::uint32_t SmoothLabels::reach_of(Vec3 spacing, double deviation) {
+    return static_cast<std::uint32_t>(std::floor(kCutOff * deviation / spacing.z));
 }
 
 Label SmoothLabels::of(const LabelWindow& window, std::int64_t i, std::int64_t j, std::int64_t s,

@@ -59,14 +59,14 @@ class SmoothLabels {
 public:
     /// The table must outlive this object.
     SmoothLabels(Vec3 spacing, double deviation, const LabelTable& labels);
-    std::uint32_t reach() const { return reach_; }
+    /// Sections on each side that it reads.
+    static std::uint32_t reach_of(Vec3 spacing, double deviation);
     using Weights = std::vector<std::pair<Label, float>>;
     Label of(const LabelWindow& window, std::int64_t i, std::int64_t j, std::int64_t s, Weights& weights) const;
 
 private:
     const LabelTable& labels_;
     std::vector<LabelStep> kernel_;
-    std::uint32_t reach_ = 0;
 };
 
 }  // namespace regionmesh

@@ -42,6 +42,12 @@ void SweepWindow::plan_stages(std::uint32_t reach) {
         }
 }
 
+std::uint32_t SweepWindow::sections() const {
+    std::uint32_t sum = 1 + kDetour;
+    for (const Stage& stage : stages_) sum += stage.lag;
+    return std::min(sum, options_.count);
+}
+
 void SweepWindow::add(std::vector<Label> section) {
     window_.sections.push_back(std::move(section));
     held_.emplace_back();

@@ -42,6 +42,9 @@ public:
     /// `reach`: sections on each side that `find` reads.
     SweepWindow(const SweepOptions& options, std::uint32_t reach, FindCandidates find, HandOut hand_out);
 
+    /// Most sections that it holds.
+    std::uint32_t sections() const;
+
     /// Sections come in order.
     void add(std::vector<Label> section);
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "base/megabytes.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/section_reader.h"
 #include "surface/chunk.h"
@@ -13,9 +14,6 @@ namespace regionmesh {
 constexpr std::uint64_t per_face(std::uint64_t face_bytes, std::uint64_t vertex_bytes) {
     return face_bytes + vertex_bytes / 2;
 }
-
-/// The program and its libraries, and buffers of reading and writing.
-inline constexpr std::uint64_t kProcessBytes = std::uint64_t{20} << 20;
 
 /// A tree of boxes: six coordinates of 16 bits at the lowest level, and 1/7 of that for the levels above. A box holds
 /// one face, or two while the whole mesh is decimated.

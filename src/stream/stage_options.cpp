@@ -43,6 +43,7 @@ CellKind cell_kind(const ReconstructOptions& options) {
 DenoiseOptions denoise_options(const ReconstructOptions& options) {
     DenoiseOptions own = options.denoise;
     own.threads = options.threads;
+    own.memory = options.face_budget ? 0 : options.memory;
     return own;
 }
 
