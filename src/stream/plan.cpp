@@ -88,8 +88,9 @@ std::vector<std::uint64_t> guessed_strip_faces(const Lattice& lattice, Sweep swe
 void require_room_to_read(const SourceShape& shape, const ReconstructOptions& options) {
     // Faces of smaller inputs are counted all the same, so that the refusal says what the model needs, too.
     // Counting takes a third of what reading and meshing take, and has to fit, too.
-    constexpr std::uint64_t kCountedAnyway = std::uint64_t{256} << 20;
-    const std::uint64_t counted = std::min(kCountedAnyway, 2 * std::min(options.memory, kCountedAnyway));
+    constexpr std::uint64_t kCountedAnyway = std::uint64_t{256} << 20, kCountedAlways = std::uint64_t{16} << 20;
+    const std::uint64_t counted =
+        kProcessBytes + std::clamp(2 * std::min(options.memory, kCountedAnyway), kCountedAlways, kCountedAnyway);
     if (options.face_budget || shape.reading_bytes <= std::max(options.memory, counted)) return;
     throw Error(ErrorCode::kInput, memory_limit_text(options.memory) + ": " + shape.name + " needs at least " +
                                        megabytes(shape.reading_bytes) +
