@@ -8,6 +8,7 @@
 
 #include "regionmesh/error.h"
 #include "regionmesh/reconstruct.h"
+#include "support/in_single.h"
 #include "support/meshes.h"
 #include "support/volumes.h"
 
@@ -80,7 +81,7 @@ ArrayVolume turned_grains(double sine) {
 void round_to_single(Mesh& mesh) {
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
         Vec3& p = mesh[VertexId{v}].position;
-        for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
+        for (int axis = 0; axis < 3; ++axis) p[axis] = test::in_single(p[axis]);
     }
 }
 
@@ -128,8 +129,8 @@ TEST(Voxelise, a_lattice_of_single_precision_is_that_of_the_model) {
             Reconstruction made = reconstruct(volume, plain());
             round_to_single(made.mesh);
             for (int axis = 0; axis < 3; ++axis) {
-                lattice.spacing[axis] = static_cast<float>(lattice.spacing[axis]);
-                lattice.origin[axis] = static_cast<float>(lattice.origin[axis]);
+                lattice.spacing[axis] = test::in_single(lattice.spacing[axis]);
+                lattice.origin[axis] = test::in_single(lattice.origin[axis]);
             }
             volume.rewind();
             const SampleAgreement found = compare_samples(made.mesh, made.labels, made.background, volume);

@@ -15,6 +15,7 @@
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
 #include "regionmesh/voxelise.h"
+#include "support/in_single.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 
@@ -276,7 +277,7 @@ TEST(BoxAxes, boxes_of_single_precision_are_found) {
         Reconstruction made = model(CellKind::kCompact, {}, shears);
         test::for_vertices(made.mesh, [&](VertexId v) {
             Vec3& p = made.mesh[v].position;
-            for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
+            for (int axis = 0; axis < 3; ++axis) p[axis] = test::in_single(p[axis]);
         });
         const BoxAxes axes(made.mesh);
         EXPECT_TRUE(axes.is_oblique());
@@ -303,7 +304,7 @@ TEST(BoxAxes, slabs_of_single_precision_are_not_sheared) {
         Reconstruction made = test::run(std::move(slab), {.decimate = false, .background = {0}});
         test::for_vertices(made.mesh, [&](VertexId v) {
             Vec3& p = made.mesh[v].position;
-            for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
+            for (int axis = 0; axis < 3; ++axis) p[axis] = test::in_single(p[axis]);
         });
         LabelledMesh file = from_file(made);
         const BoxAxes axes(file.mesh);

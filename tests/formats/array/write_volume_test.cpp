@@ -7,6 +7,7 @@
 
 #include "formats/array/read_volume.h"
 #include "formats/temporary_folder.h"
+#include "support/in_single.h"
 
 namespace regionmesh {
 namespace {
@@ -89,8 +90,8 @@ TEST_F(WriteVolume, nifti_has_single_precision_where_that_holds_the_affine) {
     EXPECT_EQ(text_of(written("v.nii", lattice, {Space::kRas})).substr(0, 2), "\x1C\x02") << "540: NIfTI-2";
     // Rounded to single precision, as a NIfTI-1 file would have it.
     for (int axis = 0; axis < 3; ++axis) {
-        lattice.origin[axis] = static_cast<float>(lattice.origin[axis]);
-        lattice.spacing[axis] = static_cast<float>(lattice.spacing[axis]);
+        lattice.origin[axis] = test::in_single(lattice.origin[axis]);
+        lattice.spacing[axis] = test::in_single(lattice.spacing[axis]);
     }
     lattice.direction = {0, -1, 0, 1, 0, 0, 0, 0, -1};
     EXPECT_EQ(text_of(written("v.nii", lattice, {Space::kLps})).substr(0, 2), "\x5C\x01") << "348: NIfTI-1";
