@@ -123,6 +123,57 @@ void warn_of_passes(const Settings& settings) {
     if (given_text(settings, "smooth-lambda")) warn_of("--smooth-lambda", "has no passes");
 }
 
+void warn_of_same_smoothing(const Settings& settings, const Vec3& spacing) {
+    const std::string* const much = given_text(settings, "smooth");
+    if (!much || !is_usual_smoothing(settings, spacing)) return;
+    warn(fmt::format(
+        "--smooth {}: without effect, since it is what normal does where sections are far apart; --denoise 1 lets more "
+        "change",
+        *much));
+}
+
+namespace {
+
+/// What a refusal means, and what helps.
+std::string remedy_of(Verdict verdict, bool has_samples) {
+    switch (verdict) {
+        case Verdict::kSamples:
+            return "a sample would lie in another region: labels that are rough need many faces; try --denoise 1, "
+                   "--downsample 2, or --no-keep-samples";
+        case Verdict::kQuality:
+            return "a face would be of low quality; try a lower --min-quality";
+        case Verdict::kIntersect:
+            return "faces would cross: regions are packed or thin; try a lower reduction";
+        case Verdict::kError:
+            return "the surface would be off by more than --max-error; try a larger one";
+        case Verdict::kFold:
+        case Verdict::kPinch:
+            return "a face would turn over: the surface is rough or thin; try --smooth strong";
+        case Verdict::kStrata:
+        case Verdict::kLink:
+        case Verdict::kAccepted:
+            break;
+    }
+    return std::string("the topology of a region, interface or line would change: there are many small ones; try ") +
+           (has_samples ? "--min-region 100 or --downsample 2" : "a lower reduction");
+}
+
+}  // namespace
+
+std::string missed_text(const Settings& settings, const VerdictCounts& verdicts) {
+    std::uint64_t refused = 0;
+    std::size_t most = static_cast<std::size_t>(Verdict::kStrata);
+    for (std::size_t n = most; n < verdicts.size(); ++n) {
+        refused += verdicts[n];
+        if (verdicts[n] > verdicts[most]) most = n;
+    }
+    const bool has_samples = !settings.inputs.empty() && is_lattice(settings, settings.inputs);
+    return fmt::format(
+        "{}: {:.0f} % of the refusals: {}", kVerdictNames[most],
+        100 * static_cast<double>(verdicts[most]) / static_cast<double>(std::max<std::uint64_t>(refused, 1)),
+        remedy_of(static_cast<Verdict>(most), has_samples));
+}
+
 void warn_of_grey_scale(const Settings& settings, SectionReader& reader) {
     if (!reader.info().can_rewind) return;
     const std::uint64_t samples = std::uint64_t{reader.section_width()} * reader.section_height();

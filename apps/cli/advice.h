@@ -34,4 +34,10 @@ inline void warn_of_grey_scale(const Settings&, TetrahedronReader&) {}
 /// samples were not counted.
 std::string background_text(const Settings& settings, const Reconstruction& made);
 
+/// Which verdict refused most edges, in per cent of those refused, and what to try.
+std::string missed_text(const Settings& settings, const VerdictCounts& verdicts);
+
+/// Warns of --smooth strong where normal gives the same bytes: where sections are far apart.
+void warn_of_same_smoothing(const Settings& settings, const Vec3& spacing);
+
 }  // namespace regionmesh::cli

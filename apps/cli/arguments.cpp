@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace regionmesh::cli {
 namespace {
@@ -57,7 +58,7 @@ std::vector<std::string> command_names() {
 }
 
 std::vector<std::string> flags_of(const CommandSpec& command) {
-    std::vector<std::string> flags{"--help"};
+    std::vector<std::string> flags{"--help", "--help-all"};
     for (const OptionSpec& option : option_table())
         if ((option.commands & command.command) != 0 && !option.is_argument) flags.push_back(option.flag());
     return flags;
@@ -72,6 +73,16 @@ std::string unknown_option(const CommandSpec& command, const std::vector<std::st
         return no_such_option(command, flag);
     }
     return {};
+}
+
+/// "help reconstruct" as "reconstruct --help"; a command that does not exist is left for its message.
+std::vector<std::string> with_help_last(std::vector<std::string> arguments) {
+    if (arguments.empty() || arguments.front() != "help") return arguments;
+    arguments.erase(arguments.begin());
+    const bool is_command = arguments.empty() || arguments.front().starts_with('-') ||
+                            std::ranges::count(command_names(), arguments.front()) > 0;
+    if (is_command) arguments.emplace_back("--help");
+    return arguments;
 }
 
 }  // namespace
@@ -89,7 +100,7 @@ std::vector<std::string> arguments_of(int argc, char** argv) {
         is_label = is_value && looks_like_labels(text);
         is_value = takes_labels(text);
     }
-    return arguments;
+    return with_help_last(std::move(arguments));
 }
 
 std::string no_such_option(const CommandSpec& command, const std::string& name) {

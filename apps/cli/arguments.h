@@ -10,6 +10,7 @@ namespace regionmesh::cli {
 
 /// The arguments without the name of the program; labels that follow an option of labels become one value:
 /// `--background 0 1 scan.nii.gz` is `--background 0,1 scan.nii.gz`. A file with such a name is left where it is.
+/// `help COMMAND` becomes `COMMAND --help`.
 std::vector<std::string> arguments_of(int argc, char** argv);
 
 /// What is wrong with a command or an option that does not exist, and which one may be meant; empty where all exist.

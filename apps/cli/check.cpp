@@ -1,3 +1,8 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+
 #include "advice.h"
 #include "commands.h"
 #include "input.h"
@@ -32,19 +37,6 @@ bool has_samples(const Settings& settings) {
     return settings.reconstruct.cap && !settings.sections.empty() && is_lattice(settings, settings.sections);
 }
 
-/// What the labels of the input say, of either kind. Warns where it is in another unit of length than the model.
-std::optional<LabelOracle> oracle_of(const Settings& settings, MeshFile& file) {
-    if (settings.sections.empty()) return {};
-    const auto oracle_from = [&](auto& reader) {
-        warn_of_units(settings.models.front(), file.coordinates.metres, settings.sections.front(),
-                      reader.info().metres);
-        const auto counted = count_labels(reader, census_options(settings));
-        return relabelled(counted.oracle, counted.labels, file.labels);
-    };
-    if (is_lattice(settings, settings.sections)) return oracle_from(*open_modelled(settings));
-    return oracle_from(*open_unstructured(settings, settings.sections));
-}
-
 /// Sections are read for the labels, and again where there are samples to compare.
 void require_readable_twice(const Settings& settings) {
     for (const std::string& file : settings.sections)
@@ -58,6 +50,75 @@ std::optional<SampleAgreement> compare_with_sections(const Settings& settings, M
     if (!has_samples(settings)) return {};
     const auto reader = open_modelled(settings);
     return compare_samples(file.mesh, file.labels, options.background, *reader, options.threads);
+}
+
+/// Labels on faces of the model that the sections do not have, as text; empty where there are none.
+std::string labels_without_samples(const MeshFile& file, const Census& census, const std::vector<Label>& background) {
+    constexpr std::size_t kNamed = 5;
+    std::set<InputLabel> there, absent;
+    for (Label label = 0; label < census.labels.size(); ++label) there.insert(census.labels.input(label));
+    for (std::uint32_t f = 0; f < file.mesh.face_end(); ++f) {
+        if (!file.mesh.is_alive(FaceId{f})) continue;
+        for (const Label label : file.mesh[FaceId{f}].labels)
+            if (!is_exterior(label) && std::ranges::find(background, label) == background.end() &&
+                !there.contains(file.labels.input(label)))
+                absent.insert(file.labels.input(label));
+    }
+    std::string text;
+    std::size_t named = 0;
+    for (const InputLabel label : absent)
+        if (named++ < kNamed) text += (text.empty() ? "" : ", ") + file.labels.text(label);
+    return absent.size() > kNamed ? text + " and " + grouped(absent.size() - kNamed) + " more" : text;
+}
+
+/// Points of the model along the axes of the lattice, from its first sample.
+Box along_lattice(const Mesh& mesh, const Lattice& lattice) {
+    Box box;
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
+        if (!mesh.is_alive(VertexId{v})) continue;
+        const Vec3 p = mesh.position(VertexId{v}) - lattice.origin;
+        Vec3 turned;
+        for (int axis = 0; axis < 3; ++axis)
+            for (int k = 0; k < 3; ++k) turned[axis] += lattice.direction[3 * k + axis] * p[k];
+        box.add(turned);
+    }
+    return box;
+}
+
+/// Says, before all violations, that the sections cannot be those that the model was made from.
+void print_misfit(const Settings& settings, const MeshFile& file, const SectionReader& reader, const Census& census,
+                  const std::vector<Label>& background) {
+    const std::string source = printable(settings.sections.front());
+    const Lattice& lattice = reader.info().lattice;
+    const Box box = along_lattice(file.mesh, lattice);
+    std::string beyond;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double last = lattice.spacing[axis] * (lattice.size[axis] - 1.0), room = lattice.spacing[axis];
+        if (box.low[axis] < -room || box.high[axis] > last + room)
+            beyond += fmt::format("{}{} from {:.6g} to {:.6g} and the samples from 0 to {:.6g}",
+                                  beyond.empty() ? "" : ", ", "xyz"[axis], box.low[axis], box.high[axis], last);
+    }
+    if (!beyond.empty())
+        say("the extents do not fit: from the first sample of {} the model reaches along {}; is this the scan that it "
+            "was made from?",
+            source, beyond);
+    if (const std::string absent = labels_without_samples(file, census, background); !absent.empty())
+        say("the labels do not fit: {} has no sample of {}; is this the scan that the model was made from?", source,
+            absent);
+}
+
+/// What the labels of the input say, of either kind. Warns where it is in another unit of length than the model.
+std::optional<LabelOracle> oracle_of(const Settings& settings, MeshFile& file, const std::vector<Label>& background) {
+    if (settings.sections.empty()) return {};
+    const auto oracle_from = [&](auto& reader) {
+        warn_of_units(settings.models.front(), file.coordinates.metres, settings.sections.front(),
+                      reader.info().metres);
+        const auto counted = count_labels(reader, census_options(settings));
+        if constexpr (requires { reader.info().lattice; }) print_misfit(settings, file, reader, counted, background);
+        return relabelled(counted.oracle, counted.labels, file.labels);
+    };
+    if (is_lattice(settings, settings.sections)) return oracle_from(*open_modelled(settings));
+    return oracle_from(*open_unstructured(settings, settings.sections));
 }
 
 /// Is the background of the volume the exterior of the model?
@@ -121,7 +182,7 @@ int run_check(const Settings& given) {
     }
     const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);
-    options.oracle = oracle_of(settings, file);
+    options.oracle = oracle_of(settings, file, options.background);
     const CheckReport report = check(file.mesh, options);
     const auto samples = compare_with_sections(settings, file, options);
     const std::string json =

@@ -1,11 +1,13 @@
 #include "command_line.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "blocks.h"
 #include "config_file.h"
+#include "input.h"
 #include "messages.h"
 #include "regionmesh/error.h"
 #include "regionmesh/output_file.h"
@@ -34,7 +36,7 @@ struct Texts {
     }
 };
 
-void add_option(CLI::App& command, const OptionSpec& spec, bool has_config, Texts& texts) {
+void add_option(CLI::App& command, const OptionSpec& spec, const Typed& typed, Texts& texts) {
     texts.spec = &spec;
     const std::string flags = spec.letter ? std::string{'-', spec.letter} + ',' + spec.flag() : spec.flag();
     const std::string description = description_of(spec);
@@ -47,8 +49,9 @@ void add_option(CLI::App& command, const OptionSpec& spec, bool has_config, Text
     // So that "--background 0 scan.nii.gz" leaves the input alone.
     if (spec.kind == OptionKind::kLabel) texts.option->allow_extra_args(false);
     if (spec.kind != OptionKind::kFlag) texts.option->type_name(spec.is_argument ? "" : value_name(spec));
-    if (!spec.is_argument) texts.option->group(std::string(spec.group));
-    texts.option->required((spec.is_argument || spec.is_required) && !has_config);
+    const bool is_shown = typed.wants_all || spec.is_basic;
+    if (!spec.is_argument) texts.option->group(is_shown ? std::string(spec.group) : "");
+    texts.option->required((spec.is_argument || spec.is_required) && !typed.has_config);
 }
 
 /// Before the first thread of the work starts, so that all are confined. Returns what the kernel enforces.
@@ -74,14 +77,19 @@ void say_confined(const std::optional<SandboxState>& state) {
 
 }  // namespace
 
-void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Settings&), bool has_config,
+void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Settings&), const Typed& typed,
                  Action& action) {
     const auto all = std::make_shared<std::vector<std::unique_ptr<Texts>>>();
     CLI::App& subcommand = *app.add_subcommand(std::string(command.name), std::string(command.help));
-    subcommand.footer("Example: " + std::string(command.example) + '\n' + kUnits);
+    const auto has = [&](const OptionSpec& spec) { return (spec.commands & command.command) != 0; };
+    std::string more;
+    if (!typed.wants_all)
+        more = "regionmesh " + std::string(command.name) + " --help-all lists all " +
+               std::to_string(std::ranges::count_if(option_table(), has)) + " options.\n";
+    subcommand.footer(more + "Example: " + std::string(command.example) + '\n' + kUnits);
     for (const OptionSpec& spec : option_table()) {
-        if ((spec.commands & command.command) == 0) continue;
-        add_option(subcommand, spec, has_config, *all->emplace_back(std::make_unique<Texts>()));
+        if (!has(spec)) continue;
+        add_option(subcommand, spec, typed, *all->emplace_back(std::make_unique<Texts>()));
     }
     subcommand.callback([all, run, &command, &action] {
         action = [all, run, &command] {
@@ -97,6 +105,7 @@ void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Set
             try {
                 const std::optional<SandboxState> confined = confine(settings, command.command);
                 remove_outputs_on_signals();  // its thread is confined, too
+                resolve_by_input(settings);
                 const int code = run(settings);
                 say_confined(confined);
                 return code;

@@ -95,15 +95,14 @@ std::string print_info(const Settings& settings, SectionReader& reader) {
     if (info.can_rewind) roughness = measure_roughness(reader, settings.reconstruct.threads);
     if (roughness) fmt::print("roughness  {}\n", roughness->text());
     const auto megabytes = [&](std::optional<double> reduce) {
-        ReconstructOptions options = settings.reconstruct;
-        options.reduce = reduce;
+        ReconstructOptions options = with_free_target(settings, info.lattice.spacing);
+        if (reduce) options.reduce = reduce;
         std::uint64_t least = least_memory(info, census, options);
         if (roughness && options.room == 0 && options.denoise.distance != 0)
             least = std::max(least, bytes_to_denoise(info, *roughness, options.denoise));
         return std::ceil(static_cast<double>(least) / 1e6);
     };
-    fmt::print("memory     {:.0f} MB at least without decimation, {:.0f} MB with --reduce 80%\n", megabytes({}),
-               megabytes(0.8));
+    fmt::print("memory     {:.0f} MB at least, {:.0f} MB with --reduce 80%\n", megabytes({}), megabytes(0.8));
     return info_json(info, census, roughness);
 }
 

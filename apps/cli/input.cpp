@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 
 #include "messages.h"
 #include "regionmesh/blocks.h"
@@ -46,6 +47,37 @@ std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::
 
 std::unique_ptr<TetrahedronReader> open_unstructured(const Settings& settings, const std::vector<std::string>& inputs) {
     return with_warning(open_tetrahedra(inputs.front(), settings.tetrahedra));
+}
+
+void resolve_by_input(Settings& settings) {
+    if (settings.deferred.empty()) return;
+    LabelNames names;
+    std::optional<double> metres;
+    std::string source;
+    if (!settings.models.empty()) {
+        source = settings.models.front();
+        const MeshFile file = is_block_folder(source) ? describe_block_folder(source) : read_mesh(source);
+        names = file.names;
+        metres = file.coordinates.metres;
+    } else if (!settings.inputs.empty()) {
+        source = settings.inputs.front();
+        if (source == "-")
+            throw Error(ErrorCode::kUsage, "--" + settings.deferred.front().first + ' ' +
+                                               settings.deferred.front().second +
+                                               ": standard input can be read once; give a number, or name a file");
+        Settings whole = settings;  // without what is to be resolved
+        whole.volume.select = {};
+        const auto note = [&](const auto& info) {
+            names = info.names;
+            metres = info.metres;
+        };
+        if (is_lattice(whole, whole.inputs))
+            note(open_lattice(whole, whole.inputs)->info());
+        else
+            note(open_tetrahedra(whole.inputs.front(), whole.tetrahedra)->info());
+    }
+    if (!settings.names.empty()) names = read_label_names(settings.names);
+    resolve_options(settings, names, metres, source);
 }
 
 bool has_extension(const std::string& path, const std::string& extensions) {

@@ -19,6 +19,9 @@ std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::
 /// The same with open_tetrahedra(), of the first input.
 std::unique_ptr<TetrahedronReader> open_unstructured(const Settings& settings, const std::vector<std::string>& inputs);
 
+/// Reads what the options need that name labels or have a unit of length, and sets them.
+void resolve_by_input(Settings& settings);
+
 /// Calls visit(reader) with the reader of the input, of either kind, and returns the result. Throws Error(kUsage) for
 /// options that do not apply to the input.
 template <class Visit>

@@ -124,7 +124,7 @@ void let_writes_fail() {
     for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
 }
 
-void add_commands(CLI::App& app, bool has_config, Action& action) {
+void add_commands(CLI::App& app, const Typed& typed, Action& action) {
     const auto run_of = [](Command command) {
         switch (command) {
             case kReconstruct:
@@ -148,7 +148,7 @@ void add_commands(CLI::App& app, bool has_config, Action& action) {
         }
         return run_view;
     };
-    for (const CommandSpec& spec : command_table()) add_command(app, spec, run_of(spec.command), has_config, action);
+    for (const CommandSpec& spec : command_table()) add_command(app, spec, run_of(spec.command), typed, action);
 }
 
 /// Options that are not in help texts: each prints docs/reference/command-line.md, the page for man(1), or a script for
@@ -179,12 +179,15 @@ int parse_and_run(int argc, char** argv) {
     app.set_version_flag("--version", REGIONMESH_VERSION);
     app.require_subcommand(1);
     app.footer("Example: " + std::string(command_table().front().example) +
-               "\nregionmesh COMMAND --help lists the options of a command, with defaults and units.");
+               "\nregionmesh help COMMAND, or COMMAND --help, lists the options that most runs need, with defaults and "
+               "units; --help-all lists all.");
     Action action;
     std::vector<std::string> arguments = arguments_of(argc, argv);
-    const bool has_config = std::ranges::any_of(
-        arguments, [](const std::string& text) { return text == "--config" || text.starts_with("--config="); });
-    add_commands(app, has_config, action);
+    const auto is_config = [](const std::string& text) { return text == "--config" || text.starts_with("--config="); };
+    const Typed typed{.has_config = std::ranges::any_of(arguments, is_config),
+                      .wants_all = std::ranges::find(arguments, "--help-all") != arguments.end()};
+    std::ranges::replace(arguments, std::string("--help-all"), std::string("--help"));
+    add_commands(app, typed, action);
     add_page(app);
     const CommandSpec* const command = command_in(arguments);
     const std::string help = fmt::format("regionmesh{}{} --help", command ? " " : "", command ? command->name : "");

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "advice.h"
 #include "commands.h"
 #include "messages.h"
 #include "page_output.h"
@@ -74,6 +75,13 @@ std::vector<std::filesystem::path> write_model(const Settings& settings, const M
                                .colours = model.colours,
                                .per_region = settings.per_region,
                                .coordinates = model.coordinates};
+    if (settings.ascii) {
+        if (settings.per_region)
+            throw Error(ErrorCode::kUsage,
+                        "--ascii and --per-region: a file of one region is binary; give one of them");
+        write_ascii_stl(model.mesh, model.labels, settings.output, options, files);
+        return {settings.output};
+    }
     warn_of_rounding(settings.output, rounded_share_of_edge(model.mesh, settings.output, options),
                      "write .vtp or .ply");
     return write_mesh(model.mesh, model.labels, settings.output, options, files);
@@ -196,11 +204,17 @@ void print_stop(const Settings& settings, const Report& report) {
     if (report.stopped == StopReason::kMaxError) reason = "every further collapse would exceed --max-error";
     const ReconstructOptions& asked = settings.reconstruct;
     const bool is_missed = asked.target_faces || asked.reduce;
+    if (!reason && !settings.quiet && !settings.inputs.empty() && has_free_target(settings) &&
+        is_lattice(settings, settings.inputs))
+        say("no target was given: faces that cost nothing are gone, up to {:.3g} off; --reduce 90% removes more, "
+            "--no-decimate keeps all",
+            report.error_bound);
     if (!reason || (settings.quiet && !is_missed)) return;
     const std::string line = fmt::format("{}: {}", is_missed ? "stopped before the target" : "stopped", reason);
     // A message that nobody can read is no reason to fail.
     if (settings.quiet) std::fputs(("regionmesh: " + line + "\n").c_str(), stderr);
     say("{}", line);
+    if (is_missed && report.stopped == StopReason::kTopology) say("{}", missed_text(settings, report.verdicts));
 }
 
 void print_orient_hint(const CheckReport& report) {

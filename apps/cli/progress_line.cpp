@@ -28,6 +28,12 @@ std::string rough_time(double seconds) {
     return fmt::format("about {:.0f} h", std::ceil(seconds / 3600));
 }
 
+std::string progress_bar(double share) {
+    constexpr std::size_t kCells = 20;
+    const auto full = static_cast<std::size_t>(kCells * std::clamp(share, 0.0, 1.0));
+    return '[' + std::string(full, '#') + std::string(kCells - full, '.') + "] ";
+}
+
 std::string progress_text(const Progress& progress, double elapsed) {
     const double share = std::clamp(progress.share, 0.0, 0.99);  // 100 % is when the files are written
     std::string text = fmt::format("{}: {:.0f} %", progress.stage, std::floor(100 * share));
@@ -47,7 +53,7 @@ void ProgressLine::show(const Progress& progress) {
     const std::string text = progress_text(progress, std::chrono::duration<double>(now - start_).count());
     if (is_new) put_line(Audience::kLog, text);
     stage_ = progress.stage;
-    if (is_shown_) put("\r\033[K" + text);
+    if (is_shown_) put("\r\033[K" + progress_bar(progress.share) + text);
 }
 
 void ProgressLine::clear() {

@@ -8,6 +8,9 @@
 
 namespace regionmesh::cli {
 
+/// "[#####...............] ": a quarter.
+std::string progress_bar(double share);
+
 /// "decimate: 63 %, about 40 s left; 1.20 M faces in memory, peak 309 MB". The time is left out in the first seconds,
 /// which say little about the rest.
 std::string progress_text(const Progress& progress, double elapsed);

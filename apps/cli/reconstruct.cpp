@@ -139,12 +139,19 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, co
         notes.labels = describe(settings, reader.info().names, colours);
         notes.coordinates = with_units_and_space(settings, coordinates_of(reader.info()));
         warn_of_grey_scale(settings, reader);
+        if constexpr (requires { reader.info().lattice; })
+            warn_of_same_smoothing(settings, reader.info().lattice.spacing);
         const auto on_progress = [&](const Progress& progress) {
             if (const std::string_view stage = progress.stage; stage != "count" && stage != "denoise") warnings.show();
             memory.show(progress);
             line.show(progress);
         };
-        Reconstruction made = reconstruct(reader, settings.reconstruct, on_progress, on_model);
+        ReconstructOptions options = settings.reconstruct;
+        if constexpr (requires { reader.info().lattice; })
+            options = with_free_target(settings, reader.info().lattice.spacing);
+        Reconstruction made = reconstruct(reader, options, on_progress, on_model);
+        if (options.promises.max_error < HUGE_VAL && !has_target(settings))
+            made.report.stopped = StopReason::kNoneAsked;
         line.clear();
         warnings.show();
         warn_of_rest(reader, warned);

@@ -9,5 +9,6 @@
 #include "regionmesh/read_layers.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
+#include "regionmesh/write_ascii_stl.h"
 #include "regionmesh/write_report.h"
 #include "regionmesh/write_volume.h"

@@ -49,12 +49,13 @@ struct Settings {
     OutputOptions writing;
     bool precomputed_is_legacy = false, precomputed_is_sharded = false;  // as PrecomputedOptions has them
     std::uint32_t precomputed_levels = 0;
-    bool per_region = false, list_all = false, quiet = false, verbose = false;
+    bool per_region = false, ascii = false, list_all = false, quiet = false, verbose = false;
     bool sandbox = true, needs_sandbox = false;     // confine the program; end where the kernel cannot
     std::optional<std::uint32_t> block_cells = {};  // BlockOptions::block_cells; the output is then a folder
     bool memory_is_hard = false;                    // the program ends rather than exceed reconstruct.memory
 
-    OptionValues given;  // set by apply_options(), without flags that are "false"
+    OptionValues given;     // set by apply_options(), without flags that are "false"
+    OptionValues deferred;  // those of `given` with names of labels or units of length: resolve_options() sets them
 };
 
 /// Kind of the value of an option: how it is written as text, and its type in a binding.
@@ -91,6 +92,7 @@ enum InputKind : std::uint32_t { kVolumeInput = 1, kTableInput = 2, kMeshInput =
 /// One option, or one argument without a flag.
 struct OptionSpec {
     std::string name;                  // "min-quality"; the flag is --min-quality
+    bool is_basic = false;             // in the short help
     std::string_view help;             // one line, without default, unit and range
     std::string_view group;            // heading in help texts
     std::uint32_t commands = 0;        // that take it
@@ -132,6 +134,25 @@ const OptionSpec* find_option(std::string_view name);
 /// Sets options in the order of the table, whatever the order of `values`. Throws Error(kUsage) for an unknown name and
 /// for options that contradict each other, and what OptionSpec::set throws.
 void apply_options(Settings& settings, const OptionValues& values);
+
+/// Sets the options that are deferred: a name becomes its labels (all that have it, in any case of letters), and a
+/// length with a unit one in the unit of the input, of `metres`. `source` is the input, in messages. Throws
+/// Error(kUsage) for a name that no label has, and for a unit where that of the input is not known.
+void resolve_options(Settings& settings, const LabelNames& names, std::optional<double> metres,
+                     const std::string& source);
+
+/// Where no target is given, faces that cost nothing are removed: the largest error, as a share of the finest spacing.
+inline constexpr double kFreeError = 0.05;
+
+/// `settings.reconstruct` for a volume with this spacing: with kFreeError as largest error where no target is given and
+/// decimation is not turned off.
+ReconstructOptions with_free_target(const Settings& settings, const Vec3& spacing);
+
+/// Whether --smooth asks for what the default does anyway where samples have these distances: strong for far sections.
+bool is_usual_smoothing(const Settings& settings, const Vec3& spacing);
+
+/// Whether with_free_target() sets a largest error.
+bool has_free_target(const Settings& settings);
 
 /// Throws Error(kUsage) where two options contradict each other, whatever the input.
 void require_consistent(const Settings& settings);

@@ -40,6 +40,32 @@ def to_pyvista(mesh):
     return data
 
 
+def plot(mesh):
+    """See Mesh.plot."""
+    try:
+        import pyvista
+    except ImportError:
+        try:
+            from IPython.display import HTML
+        except ImportError:
+            raise ImportError("plot() needs PyVista, or a notebook: pip install pyvista") from None
+        return HTML(mesh._repr_html_())
+    plotter = pyvista.Plotter()
+    for label in mesh.regions["label"]:
+        surface = mesh.region(label)
+        faces = np.insert(surface.faces.astype(np.int64), 0, 3, axis=1).ravel()
+        name = mesh.names.get(int(label), f"region {label}")
+        plotter.add_mesh(pyvista.PolyData(np.array(surface.points), faces), color=_colour(len(plotter.actors)), label=name)
+    return plotter.show()
+
+
+def _colour(number):
+    """Hues as far apart as can be, whatever their number."""
+    import colorsys
+
+    return colorsys.hsv_to_rgb(number * 0.61803398875 % 1, 0.65, 0.9)
+
+
 def to_meshio(mesh):
     """See Mesh.to_meshio."""
     import meshio
@@ -56,5 +82,9 @@ def to_trimesh(mesh, label):
     """See Mesh.to_trimesh."""
     import trimesh
 
+    if label is None:
+        whole = trimesh.Trimesh(np.array(mesh.points), mesh.faces.astype(np.int64), process=False)
+        whole.face_attributes["labels"] = np.array(mesh.labels)
+        return whole
     surface = mesh.region(label)
     return trimesh.Trimesh(surface.points, surface.faces.astype(np.int64), process=False)

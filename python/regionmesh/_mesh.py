@@ -534,7 +534,7 @@ class Mesh:
             shape, dtype, place = data.shape, data.dtype, (own.spacing, own.origin, own.direction)
         return shape, "uint8" if dtype == "bool" else dtype, place
 
-    def save(self, path, *, per_region=False, units=None, precomputed=None, levels=None, sharded=False):
+    def save(self, path, *, per_region=False, ascii=False, units=None, precomputed=None, levels=None, sharded=False):
         """Write the model; the extension selects the format (docs/reference/files.md).
 
         Parameters
@@ -545,6 +545,8 @@ class Mesh:
         per_region : bool
             .stl, .obj and .ply: a file for each region, MODEL-NAME.EXTENSION, or MODEL-LABEL.EXTENSION where it has no
             name.
+        ascii : bool
+            .stl: text, doubles and a solid with a name for each region, instead of binary.
         units : {"km", "m", "cm", "mm", "um", "nm", "ft", "in"}, optional
             The unit of length of the model: .glb files are in metres and .precomputed in nanometres, and are scaled;
             other files say the unit, where they can. Default: that of the model (`metres`), else metres, and
@@ -568,7 +570,7 @@ class Mesh:
         ValueError
             For options that are not for such a file.
         """
-        pairs = _options.output_pairs({"units": units}, "save")
+        pairs = _options.output_pairs({"units": units, "ascii": ascii}, "save")
         of_folder = {"precomputed": precomputed, "levels": levels, "sharded": None if sharded is False else sharded}
         given = _options.output_pairs(of_folder, "save")
         folder = os.path.normpath(os.fsdecode(path))
@@ -643,8 +645,14 @@ class Mesh:
 
         return _convert.to_meshio(self)
 
-    def to_trimesh(self, label):
-        """Return a trimesh.Trimesh of one region. Needs trimesh."""
+    def plot(self):
+        """Show the model: all regions in a window of PyVista, or where it is missing the view of a notebook."""
+        from . import _convert
+
+        return _convert.plot(self)
+
+    def to_trimesh(self, label=None):
+        """Return a trimesh.Trimesh of one region, or of all faces with their labels as attribute. Needs trimesh."""
         from . import _convert
 
         return _convert.to_trimesh(self, label)

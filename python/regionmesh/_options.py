@@ -72,6 +72,8 @@ def _number(name, value):
 def _three(name, value, text_of):
     if isinstance(value, (str, bytes)):
         raise TypeError(f"{name}={value!r}: not three numbers")
+    if name == "spacing" and not hasattr(value, "__iter__"):
+        value = (value,) * 3
     try:
         return ",".join(text_of(name, item) for item in value)
     except TypeError:

@@ -2,6 +2,7 @@
 
 import base64
 import html as escaping
+import warnings
 from importlib import resources
 
 import numpy as np
@@ -22,7 +23,9 @@ def _preview(mesh):
     """A coarser model where there are many faces."""
     if len(mesh.faces) <= _MOST_FACES:
         return mesh
-    return mesh.simplify(target_faces=_MOST_FACES, min_quality=0.0, intersect_check=False, keep_samples=False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of a target that a preview misses
+        return mesh.simplify(target_faces=_MOST_FACES, min_quality=0.0, intersect_check=False, keep_samples=False)
 
 
 def html(mesh):

@@ -80,8 +80,8 @@ def reconstruct(
         of dask, zarr or h5py (read section by section); an image of SimpleITK or nibabel, with its place in space
         and its unit of length; an iterable of sections [y, x]; or the path of a file that the program `regionmesh`
         reads, or a list of paths of sections.
-    spacing : (3,) sequence of float, optional
-        Distance between samples along x, y, z. Default: that of the image or file, else 1.
+    spacing : float or (3,) sequence of float, optional
+        Distance between samples along x, y, z, or along all axes. Default: that of the image or file, else 1.
     origin : (3,) sequence of float, optional
         Place of the first sample, x, y, z, in the unit of the spacing. Not for paths.
     direction : (3, 3) array_like, optional

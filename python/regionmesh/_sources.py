@@ -31,7 +31,7 @@ def _vector(name, value, default):
     if isinstance(value, (str, bytes)):
         raise TypeError(f"{name}={value!r}: not three numbers")
     try:
-        vector = tuple(float(item) for item in value)
+        vector = tuple(float(item) for item in (value if np.ndim(value) or name != "spacing" else (value,) * 3))
     except (TypeError, ValueError):
         raise TypeError(f"{name}={value!r}: not three numbers") from None
     if len(vector) != 3:

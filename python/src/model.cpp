@@ -134,8 +134,10 @@ Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
     watch.run([&] {
         WatchedSections sections(*source.reader, watch);
         StageProgress progress(watch, options);
-        Reconstruction made = reconstruct(sections, options, [&](const Progress& state) { progress(state); });
         const VolumeInfo& info = sections.info();
+        Reconstruction made = reconstruct(sections, with_free_target(settings, info.lattice.spacing),
+                                          [&](const Progress& state) { progress(state); });
+        if (!has_target(settings)) made.report.stopped = StopReason::kNoneAsked;
         model = model_from(std::move(made), run.names.value_or(info.names), !options.cap,
                            with_units_and_space(settings, coordinates_of(info)), run.colours.value_or(info.colours));
     });
@@ -158,8 +160,10 @@ Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Wat
         warn_of(path, info.warning);
         watch.run([&] {
             StageProgress progress(watch, settings.reconstruct);
-            Reconstruction made =
-                reconstruct(reader, settings.reconstruct, [&](const Progress& state) { progress(state); });
+            ReconstructOptions own = settings.reconstruct;
+            if constexpr (requires { info.lattice; }) own = with_free_target(settings, info.lattice.spacing);
+            Reconstruction made = reconstruct(reader, own, [&](const Progress& state) { progress(state); });
+            if (!has_target(settings)) made.report.stopped = StopReason::kNoneAsked;
             model =
                 model_from(std::move(made), run.names.value_or(info.names), !settings.reconstruct.cap,
                            with_units_and_space(settings, coordinates_of(info)), run.colours.value_or(LabelColours{}));
@@ -198,6 +202,12 @@ Saved save_model(const Model& model, const std::string& path, bool per_region, c
                                .per_region = per_region,
                                .coordinates = with_units_and_space(settings, model.coordinates),
                                .boundary_is_open = model.is_open};
+    if (settings.ascii) {
+        OutputFiles files;
+        write_ascii_stl(model.mesh, model.labels, path, writing, files);
+        files.commit();
+        return {{path}, 0};
+    }
     Saved saved{{}, rounded_share_of_edge(model.mesh, path, writing)};
     for (const auto& file : write_mesh(model.mesh, model.labels, path, writing)) saved.paths.push_back(file.string());
     return saved;

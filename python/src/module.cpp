@@ -22,7 +22,7 @@ void raise_in_python(std::exception_ptr failure) {
     try {
         if (failure) std::rethrow_exception(failure);
     } catch (const Error& error) {
-        const std::string_view text = error.what();
+        const std::string text = with_arguments(error.what());
         const auto message = py::reinterpret_steal<py::object>(
             PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape"));
         PyErr_SetObject(error.code() == ErrorCode::kOutput ? PyExc_OSError : PyExc_ValueError, message.ptr());

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "regionmesh/error.h"
@@ -40,6 +42,34 @@ py::list option_rows(const std::string& command) {
     for (const OptionSpec& option : option_table())
         if ((option.commands & found->command) != 0) rows.append(row_of(option));
     return rows;
+}
+
+std::string with_arguments(const std::string& text) {
+    constexpr std::string_view kWord = "abcdefghijklmnopqrstuvwxyz-";
+    std::string made;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t flag = text.find("--", at);
+        if (flag == std::string::npos) return made + text.substr(at);
+        const std::size_t end = std::min(text.find_first_not_of(kWord, flag + 2), text.size());
+        const OptionSpec* const option = find_option(text.substr(flag + 2, end - flag - 2));
+        made += text.substr(at, flag - at);
+        at = end;
+        if (!option) {
+            made += text.substr(flag, end - flag);
+            continue;
+        }
+        const bool is_inverted = option->name.starts_with("no-") && option->name != "no-background";
+        std::string name = is_inverted ? option->name.substr(3) : option->name;
+        std::ranges::replace(name, '-', '_');
+        made += is_inverted ? name + "=False" : name;
+        // "--reduce 2: not a share" names the value, and so do lists of two such.
+        if (!is_inverted && flag == 0 && option->kind != OptionKind::kFlag && end < text.size() && text[end] == ' ' &&
+            text.compare(end, 5, " and ") != 0) {
+            made += '=';
+            ++at;
+        }
+    }
+    return made;
 }
 
 Settings settings_from(const OptionValues& values, const std::vector<std::string>& inputs) {

@@ -38,7 +38,7 @@ _OF_KIND = {
     "text": "str", "file": "_Path", "counts": "Sequence[_Int]", "numbers": "Sequence[float]",
 }  # fmt: skip
 _OF_NAME = {
-    "spacing": "_Vector | None", "origin": "_Vector | None", "direction": "npt.ArrayLike | None",
+    "spacing": "float | _Vector | None", "ascii": "bool", "origin": "_Vector | None", "direction": "npt.ArrayLike | None",
     "names": "Mapping[int, str] | _Path | None", "labels_to_keep": "Iterable[_Int] | None", "sections": "_Int | None",
     "progress": "_Progress | None", "background": "_Int | Iterable[_Int] | None", "smooth": "str | _Int | bool | None",
     "path": "_Path", "points": "npt.ArrayLike", "faces": "npt.ArrayLike", "exterior_label": "_Int",

@@ -4,6 +4,7 @@ import copy
 import json
 import os
 import pickle
+import sys
 import warnings
 import zipfile
 
@@ -485,7 +486,7 @@ def test_save_returns_the_files_and_scales_to_metres(two_boxes, tmp_path):
     assert all(os.path.getsize(file) > 0 for file in files)
     assert made.save(tmp_path / "m.glb", units="mm") == [str(tmp_path / "m.glb")]
     assert b'"scale":[0.001,0.001,0.001]' in (tmp_path / "m.glb").read_bytes()
-    with pytest.raises(ValueError, match="--units"):
+    with pytest.raises(ValueError, match="units"):
         made.save(tmp_path / "m.glb", units="furlong")
     for units, word in (None, b"millimeter"), ("m", b"meter"):
         made.save(tmp_path / "m.3mf", units=units)
@@ -612,6 +613,19 @@ def test_to_trimesh(mesh):
     box = mesh.to_trimesh(1)
     assert isinstance(box, trimesh.Trimesh) and box.is_watertight
     assert box.volume == pytest.approx(mesh.regions["volume"][0])
+    whole = mesh.to_trimesh()
+    assert len(whole.faces) == len(mesh) and len(whole.face_attributes["labels"]) == len(mesh)
+
+
+def test_plot_shows_the_view_of_a_notebook_where_pyvista_is_missing(mesh, monkeypatch):
+    display = pytest.importorskip("IPython.display")
+    monkeypatch.setitem(sys.modules, "pyvista", None)
+    assert isinstance(mesh.plot(), display.HTML)
+
+
+def test_the_view_warns_of_nothing(mesh, recwarn):
+    mesh._repr_html_()
+    assert not recwarn.list
 
 
 def test_to_pyvista(mesh):

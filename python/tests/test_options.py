@@ -27,6 +27,7 @@ from regionmesh import _core, _options
         ("smooth_filter", "taubin", "taubin"),
         ("preserve_volume", True, "true"),
         ("spacing", (1, 2.5, 3), "1.0,2.5,3.0"),
+        ("spacing", 2, "2.0,2.0,2.0"),
         ("spacing", np.array([1.0, 2.0, 3.0]), "1.0,2.0,3.0"),
         ("size", (10, 20, 30), "10,20,30"),
     ],
@@ -94,15 +95,15 @@ def test_a_wrong_type_or_name_raises_type_error(two_boxes, options):
 @pytest.mark.parametrize(
     "options, line",
     [
-        ({"reduce": 2}, "--reduce 2.0: not a share, such as 90% or 0.9"),
-        ({"reduce": float("nan")}, "--reduce nan: not a share, such as 90% or 0.9"),
-        ({"reduce": "lots"}, "--reduce lots: not a share, such as 90% or 0.9"),
-        ({"target_faces": -1}, "--target-faces -1: not a whole number"),
-        ({"memory": "much"}, "--memory much: not a size, such as 500MiB or 2GiB"),
-        ({"smooth_filter": "soft"}, "--smooth-filter soft"),
-        ({"smooth": "more"}, "--smooth more: not off, light, normal, strong or a whole number of 0 to 100000"),
-        ({"sweep": "w"}, "--sweep w"),
-        ({"boundary": "open", "preserve_volume": True}, "--preserve-volume: open regions have no volume"),
+        ({"reduce": 2}, "reduce=2.0: not a share, such as 90% or 0.9"),
+        ({"reduce": float("nan")}, "reduce=nan: not a share, such as 90% or 0.9"),
+        ({"reduce": "lots"}, "reduce=lots: not a share, such as 90% or 0.9"),
+        ({"target_faces": -1}, "target_faces=-1: not a whole number"),
+        ({"memory": "much"}, "memory=much: not a size, such as 500MiB or 2GiB"),
+        ({"smooth_filter": "soft"}, "smooth_filter=soft"),
+        ({"smooth": "more"}, "smooth=more: not off, light, normal, strong or a whole number of 0 to 100000"),
+        ({"sweep": "w"}, "sweep=w"),
+        ({"boundary": "open", "preserve_volume": True}, "preserve_volume: open regions have no volume"),
     ],
 )
 def test_a_wrong_value_raises_the_line_of_the_program(two_boxes, options, line):

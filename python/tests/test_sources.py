@@ -496,7 +496,7 @@ def test_a_model_in_a_unit_that_is_given(two_boxes, tmp_path):
     assert copy.metres == 0.001
     with pytest.warns(UserWarning, match="the mesh is in mm and the other in ft; they are compared as they are"):
         copy.compare(made)
-    with pytest.raises(ValueError, match="--units furlong"):
+    with pytest.raises(ValueError, match="units=furlong"):
         regionmesh.reconstruct(two_boxes, units="furlong")
 
 

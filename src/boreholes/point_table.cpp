@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/add_warning.h"
 #include "boreholes/drill_holes.h"
 #include "boreholes/hole_paths.h"
 #include "boreholes/table_columns.h"
@@ -23,6 +24,9 @@
 namespace regionmesh::formats {
 namespace {
 
+constexpr std::string_view kHull =
+    "drill holes become points, and their regions are coarse hulls; with --layers auto the bases of the units are "
+    "interpolated between the holes, and --step says that points are wanted";
 constexpr std::uint64_t kLeastRowBytes = 8;  // "0,0,0,0\n"
 
 /// Converts the rows of one table to points.
@@ -200,6 +204,7 @@ void PointTableReader::finish() {
     table_.info.scale_z = options_.scale_z == kAutoScale ? estimated_scale() : options_.scale_z;
     table_.info.metres = unit_.metres();
     table_.info.warning = warning_of_surface();
+    if (columns_.are_intervals() && !options_.step) add_warning(table_.info.warning, kHull);
     const std::vector<InputLabel> labels = labels_.labels(table_.info);
     for (std::size_t i = 0; i < table_.rows.size(); ++i) {
         InputLabel& label = table_.points.labels[i];

@@ -158,6 +158,7 @@ constexpr Format kFormats[] = {
      .read_surface = read_stl,
      .write_surface = write_one<write_stl>,
      .write_region = write_region_stl,
+     .has_single_points = true,
      .has_single_region_points = true},
     {.name = "OBJ",
      .extensions = {".obj"},

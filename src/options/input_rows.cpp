@@ -78,6 +78,7 @@ Rows selection_rows() {
                        OptionKind::kFile,
                        [](Settings& s, const std::string&, const std::string& text) { s.volume.merge_table = text; }),
         special_option({.name = "labels",
+                        .is_basic = true,
                         .help = "volumes: labels to keep, as 1,5-9; samples with another label become background",
                         .group = kGroup,
                         .commands = kVolumeCommands,
@@ -159,12 +160,14 @@ Rows volume_rows() {
     constexpr std::uint32_t kFileCommands = kVolumeCommands | kVoxelise;
     Rows rows{
         file_option({.name = "sections",
+                     .is_basic = true,
                      .help = "input that the model was made from (volume, points or mesh): compare with its labels",
                      .group = kGroup,
                      .commands = kCheck,
                      .repeats = true},
                     [](Settings& s) { return &s.sections; }),
         file_option({.name = "like",
+                     .is_basic = true,
                      .help = "volume with the lattice and the type of samples to write",
                      .group = kGroup,
                      .commands = kVoxelise,
@@ -178,6 +181,7 @@ Rows volume_rows() {
                     {"auto", "x", "y", "z"}, choose_sweep),
         option(
             {.name = "spacing",
+             .is_basic = true,
              .help = "distance between samples along x, y and z: of a volume, instead of that in the file; of layers",
              .group = kGroup,
              .commands = kFileCommands,
@@ -249,6 +253,7 @@ Rows tetrahedra_rows() {
             [](Settings& s) { return &s.tetrahedra.step; }, kPositive),
         special_option(
             {.name = "layers",
+             .is_basic = true,
              .help = "drill holes: interpolate the bases of units between the holes; units from young to old, or auto",
              .group = kGroup,
              .commands = kVolumeCommands,

@@ -4,6 +4,7 @@
 
 #include "regionmesh/options.h"
 #include "regionmesh/write_report.h"
+#include "smooth/lattice/usual_reach.h"
 
 namespace regionmesh {
 
@@ -19,6 +20,24 @@ bool has_background(const Settings& settings) {
 bool has_target(const Settings& settings) {
     const ReconstructOptions& asked = settings.reconstruct;
     return asked.target_faces || asked.reduce || asked.promises.max_error < HUGE_VAL;
+}
+
+bool is_usual_smoothing(const Settings& settings, const Vec3& spacing) {
+    const SmoothOptions& smooth = settings.reconstruct.smooth;
+    const bool is_lattice = smooth.filter == SmoothFilter::kAuto || smooth.filter == SmoothFilter::kLattice;
+    return is_lattice && smooth.passes > 0 && smooth.reach == usual_reach(spacing);
+}
+
+bool has_free_target(const Settings& settings) {
+    const ReconstructOptions& asked = settings.reconstruct;
+    return asked.decimate && !has_target(settings) && !asked.preserve_volume;  // whose step an error would bound
+}
+
+ReconstructOptions with_free_target(const Settings& settings, const Vec3& spacing) {
+    ReconstructOptions options = settings.reconstruct;
+    if (has_free_target(settings))
+        options.promises.max_error = kFreeError * std::min({spacing.x, spacing.y, spacing.z});
+    return options;
 }
 
 Coordinates with_units_and_space(const Settings& settings, Coordinates known) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "options/deferred_options.h"
 #include "options/option_rows.h"
 #include "regionmesh/error.h"
 
@@ -58,7 +59,10 @@ void apply_options(Settings& settings, const OptionValues& values) {
     for (const OptionSpec& row : option_table())
         for (const auto& [name, text] : values)
             if (name == row.name) {
-                row.set(settings, text);
+                if (is_deferred(row, text))
+                    settings.deferred.emplace_back(name, text);
+                else
+                    row.set(settings, text);
                 const bool is_off = row.kind == OptionKind::kFlag && text == "false";
                 if (!is_off) settings.given.emplace_back(name, text);
             }

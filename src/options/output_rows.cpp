@@ -38,6 +38,7 @@ Rows output_rows() {
     constexpr std::uint32_t kAllWriters = kWriters | kConvert | kVoxelise | kCheck | kCompare | kInfo;
     return {
         file_option({.name = "output",
+                     .is_basic = true,
                      .help = output_help(),
                      .group = kGroup,
                      .commands = kWriters | kVoxelise | kView,
@@ -55,6 +56,7 @@ Rows output_rows() {
              .inputs = kVolumeInput},
             [](Settings& s) { return &s.block_cells; }, kBlockCells),
         file_option({.name = "names",
+                     .is_basic = true,
                      .help = "table of labels, names and colours (.csv .tsv .txt .xml), instead of those in the input",
                      .group = kGroup,
                      .commands = kWriters | kConvert | kView},
@@ -64,6 +66,11 @@ Rows output_rows() {
                 .group = kGroup,
                 .commands = kWriters | kConvert},
                [](Settings& s) { return &s.per_region; }),
+        option({.name = "ascii",
+                .help = "write .stl as text: doubles, and a solid with a name for each region; otherwise it is binary",
+                .group = kGroup,
+                .commands = kWriters | kConvert},
+               [](Settings& s) { return &s.ascii; }),
         word_option(
             {.name = "space",
              .help = "space of the model: keep that of the input, or turn it so that x and y point as in ras or lps",
@@ -127,6 +134,7 @@ Rows output_rows() {
              .is_output = true},
             [](Settings& s) { return &s.write_labels; }),
         file_option({.name = "report",
+                     .is_basic = true,
                      .help = "JSON report to write",
                      .group = kGroup,
                      .commands = kWriters,
@@ -150,6 +158,7 @@ Rows output_rows() {
         option({.name = "all", .help = "list all labels, not the first 20", .group = kGroup, .commands = kInfo},
                [](Settings& s) { return &s.list_all; }),
         file_option({.name = "html",
+                     .is_basic = true,
                      .help = "page to write that shows the model and the report in a browser",
                      .group = kGroup,
                      .commands = kWriters | kCheck | kCompare,

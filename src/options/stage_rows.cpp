@@ -49,12 +49,14 @@ Rows decimation_rows() {
     constexpr std::string_view kGroup = "Decimation";
     return {
         option({.name = "target-faces",
+                .is_basic = true,
                 .help = "stop when at most this number of faces is left",
                 .group = kGroup,
                 .commands = kDecimators,
                 .unit = "faces"},
                [](Settings& s) { return &s.reconstruct.target_faces; }),
         special_option({.name = "reduce",
+                        .is_basic = true,
                         .help = "stop when this share of the faces is removed, such as 90%",
                         .group = kGroup,
                         .commands = kDecimators,
@@ -65,6 +67,7 @@ Rows decimation_rows() {
                        }),
         without_default(option(
             {.name = "max-error",
+             .is_basic = true,
              .help = "no point of the model is farther than this from the surface before decimation, nor the other way "
                      "round",
              .group = kGroup,
@@ -93,6 +96,7 @@ Rows smoothing_rows() {
     return {
         special_option(
             {.name = "smooth",
+             .is_basic = true,
              .help = "how much: off, light, normal, strong, or a number of passes (for lattice any is normal); 0: off",
              .group = kGroup,
              .commands = kSmoothers,

@@ -52,7 +52,7 @@ TEST_F(CliFiles, the_background_is_kept_in_the_model) {
         EXPECT_THAT(read_mesh(out(name)).background.value(), ElementsAre(9));
         expect_good("check " + out(name));
         expect_good("check " + out(name) + " --sections " + labels);
-        expect_good("convert " + out(name) + ' ' + out("m.stl"));
+        expect_good("convert " + out(name) + ' ' + out("m.stl") + " --ascii");
         EXPECT_THAT(read("m.stl"), HasSubstr("solid region_4"));
         EXPECT_THAT(read("m.stl"), Not(HasSubstr("region_9")));
     }
@@ -64,7 +64,7 @@ TEST_F(CliFiles, a_model_without_background_says_so) {
         SCOPED_TRACE(name);
         expect_good("reconstruct " + volume() + "-o " + out(name) + " --no-background");
         EXPECT_THAT(read_mesh(out(name)).background.value(), ElementsAre());
-        expect_good("convert " + out(name) + ' ' + out("m.stl"));
+        expect_good("convert " + out(name) + ' ' + out("m.stl") + " --ascii");
         EXPECT_THAT(read("m.stl"), HasSubstr("solid region_0"));
         expect_good("reconstruct " + volume(4, 9) + "-o " + out(name) + " --no-background");
         EXPECT_THAT(read_mesh(out(name)).background.value(), ElementsAre()) << "and no region has label 0";

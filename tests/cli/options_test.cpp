@@ -102,9 +102,24 @@ TEST_F(CliOptions, the_page_is_that_of_the_table) {
     for (const OptionSpec& option : option_table()) EXPECT_THAT(page, HasSubstr('`' + option.flag() + '`'));
 }
 
-TEST_F(CliOptions, help_shows_every_option_with_its_group_range_and_default) {
+TEST_F(CliOptions, the_short_help_has_what_most_runs_need_and_says_where_the_rest_is) {
     for (const CommandSpec& command : command_table()) {
-        const Ran ran = run(std::string(command.name) + " --help");
+        SCOPED_TRACE(command.name);
+        const Ran ran = run("help " + std::string(command.name));
+        EXPECT_EQ(ran.code, 0);
+        EXPECT_EQ(ran.out, run(std::string(command.name) + " --help").out);
+        EXPECT_THAT(ran.out, HasSubstr("--help-all lists all "));
+        for (const OptionSpec& option : option_table())
+            if ((option.commands & command.command) != 0 && !option.is_argument)
+                EXPECT_EQ(ran.out.find(option.flag() + ' ') != std::string::npos, option.is_basic) << option.name;
+    }
+    EXPECT_EQ(run("help").out, run("--help").out);
+    EXPECT_EQ(run("help nothing").code, 2);
+}
+
+TEST_F(CliOptions, help_all_shows_every_option_with_its_group_range_and_default) {
+    for (const CommandSpec& command : command_table()) {
+        const Ran ran = run(std::string(command.name) + " --help-all");
         EXPECT_EQ(ran.code, 0);
         EXPECT_THAT(ran.out, HasSubstr("Example: regionmesh " + std::string(command.name) + ' '));
         EXPECT_THAT(ran.out, HasSubstr("Lengths are in the unit of"));
@@ -138,7 +153,8 @@ TEST_F(CliOptions, every_option_is_accepted_by_its_commands_and_no_other) {
 
 TEST_F(CliOptions, wrong_values_are_exit_2_in_one_line) {
     for_commands_and_options([&](const CommandSpec& command, const OptionSpec& option) {
-        const bool takes_any_text = option.kind == OptionKind::kFile || option.kind == OptionKind::kText;
+        const bool is_name = option.kind == OptionKind::kLabel && option.repeats;  // of a label
+        const bool takes_any_text = is_name || option.kind == OptionKind::kFile || option.kind == OptionKind::kText;
         if (takes_any_text || option.kind == OptionKind::kFlag) return;
         expect_refusal(arguments(command, option, "wrong"), 2, option.flag() + " wrong: not ");
     });

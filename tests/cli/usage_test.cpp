@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "cli/program.h"
 
 namespace regionmesh {
@@ -63,6 +65,70 @@ TEST_F(Usage, options_that_the_lattice_filter_does_not_follow_are_a_warning) {
         EXPECT_EQ(said(options), "") << options;
 }
 
+TEST_F(Usage, labels_may_be_named) {
+    put_text(path("names.csv"), "label,name\n1,The ball\n");
+    const std::string names = " --names " + path("names.csv").string();
+    for (const std::string option : {"--labels 'the ball'", "--labels '0,The Ball'", "--background 0,5"}) {
+        const Ran ran = run(reconstruct_ball(option + names));
+        EXPECT_EQ(ran.code, 0) << option << ran.error;
+        EXPECT_THAT(ran.out, HasSubstr("made: 1 region, ")) << option;
+    }
+    std::filesystem::remove(out("m.vtp"));
+    expect_refusal(reconstruct_ball("--background 'The ball'" + names + " --labels 1"), 1, "no region");
+    expect_refusal(reconstruct_ball("--labels liver" + names), 2, "--labels liver: ");
+    expect_refusal(reconstruct_ball("--labels liver"), 2, "has no names: give labels, or --names TABLE");
+}
+
+TEST_F(Usage, a_length_may_have_a_unit) {
+    const auto bytes = [&](const std::string& options) {
+        EXPECT_EQ(run(reconstruct_ball(options)).code, 0) << options;
+        return text_of(out("m.vtp"));
+    };
+    EXPECT_EQ(bytes("--units mm --max-error 0.2mm"), bytes("--units mm --max-error 0.2"));
+    EXPECT_EQ(bytes("--units mm --max-error 200um"), bytes("--units mm --max-error 0.2"));
+    std::filesystem::remove(out("m.vtp"));
+    expect_refusal(reconstruct_ball("--max-error 0.2mm"), 2, "does not say its unit of length");
+    expect_refusal(reconstruct_ball("--max-error 0.2furlong"), 2, "--max-error 0.2furlong: not a number");
+}
+
+TEST_F(Usage, without_a_target_faces_that_cost_nothing_go) {
+    const Ran usual = run(reconstruct_ball()), whole = run(reconstruct_ball("--no-decimate")),
+              none = run(reconstruct_ball("--reduce 0"));
+    EXPECT_THAT(usual.out, HasSubstr("no target was given: faces that cost nothing are gone"));
+    EXPECT_THAT(whole.out, testing::Not(HasSubstr("no target")));
+    const auto faces = [](const Ran& ran) {
+        std::smatch found;
+        EXPECT_TRUE(std::regex_search(ran.out, found, std::regex("region, ([0-9]+) faces?"))) << ran.out;
+        return std::stoi(found[1]);
+    };
+    EXPECT_LT(faces(usual), faces(whole));
+    EXPECT_EQ(faces(none), faces(whole));
+}
+
+TEST_F(Usage, a_missed_target_says_which_verdict_refused_most_and_what_to_try) {
+    put_noise(30);
+    const Ran ran = run("reconstruct " + of("noise", "--no-background --reduce 99%") + to_model());
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    EXPECT_THAT(ran.out, HasSubstr("stopped before the target"));
+    EXPECT_THAT(ran.out, testing::ContainsRegex("[a-z]+: [0-9]+ % of the refusals: .*; try "));
+}
+
+TEST_F(Usage, smoothing_that_changes_nothing_says_so) {
+    EXPECT_THAT(run(reconstruct_ball("--smooth strong --spacing 1,1,5")).error,
+                HasSubstr("--smooth strong: without effect"));
+    EXPECT_EQ(run(reconstruct_ball("--smooth strong")).error, "");
+}
+
+TEST_F(Usage, a_check_against_another_scan_says_first_what_does_not_fit) {
+    const std::string model = path("m.vtp").string();
+    ASSERT_EQ(run("reconstruct " + of("ball") + " -o " + model).code, 0);
+    EXPECT_THAT(run("check " + model + " --sections " + of("ball", "--spacing 0.5,0.5,0.5")).out,
+                testing::StartsWith("the extents do not fit: "));
+    EXPECT_THAT(run("check " + model + " --sections " + of("empty")).out,
+                testing::StartsWith("the labels do not fit: "));
+    EXPECT_THAT(run("check " + model + " --sections " + of("ball")).out, testing::Not(HasSubstr("not fit")));
+}
+
 TEST_F(Usage, a_check_without_sections_takes_no_options_of_them) {
     const std::string model = path("m.vtp").string();
     ASSERT_EQ(run("reconstruct " + of("ball") + " -o " + model).code, 0);
@@ -108,7 +174,7 @@ TEST_F(Usage, background_leaves_the_input_alone_and_takes_several_labels) {
     }
     std::filesystem::remove(out("m.vtp"));
     expect_refusal("reconstruct --background 0-1 " + input, 1, "no region");
-    expect_refusal(reconstruct_ball("--background 0,x"), 2, "--background 0,x: not labels");
+    expect_refusal(reconstruct_ball("--background 0,x"), 2, "has no names: give labels, or --names TABLE");
     expect_refusal(reconstruct_ball("--background 5-1"), 2, "--background 5-1: not ");
 }
 

@@ -142,6 +142,7 @@ const std::vector<Effect> kEffects{
     {"block-size", "6", Part::kAny, kAll, {.output = "folder/"}},
     {"names", "{names}"},
     {"per-region", "", Part::kFiles, kAll, {.output = "m.stl"}},
+    {"ascii", "", Part::kFiles, kAll, {.output = "m.stl"}},
     {"space", "lps", Part::kFiles, kAll, {.source = "{ras}", .model = "{model_in_ras}"}},
     {"units", "mm", Part::kFiles},
     {"regions", "{out}/t.csv", Part::kNewFile},
@@ -305,7 +306,7 @@ protected:
 
     void put_models() {
         const std::pair<std::string, std::string> models[] = {
-            {"model", "{grains} --smooth off --denoise off"},
+            {"model", "{grains} --smooth off --denoise off --no-decimate"},
             {"other", "{grains} --reduce 50%"},
             {"open", "{grains} --smooth off --boundary open"},
             {"without_background", "{grains} --smooth off --no-background"},

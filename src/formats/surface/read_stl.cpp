@@ -4,6 +4,7 @@
 
 #include "formats/codec/byte_reader.h"
 #include "formats/surface/mesh_formats.h"
+#include "formats/surface/stl_attributes.h"
 #include "formats/text/header_text.h"
 
 namespace regionmesh {
@@ -30,17 +31,23 @@ void add_face(FileSurface& surface, const std::array<Vec3, 3>& points, std::uint
 }
 
 void read_binary(formats::ByteReader& file, std::uint32_t count, RegionGroups& groups, FileSurface& surface) {
-    const auto head = file.take(kHeadBytes);
-    read_space(surface, std::string_view(reinterpret_cast<const char*>(head.data()), head.size()));
+    const auto bytes = file.take(kHeadBytes);
+    const std::string head(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    read_space(surface, head);
+    const bool has_labels = head.starts_with("binary STL of regionmesh") && head.find(kStlAttributes) != head.npos;
     file.take(4);
-    const std::uint32_t group = groups.add({}, true);
+    std::optional<std::uint32_t> group;
     for (std::uint32_t f = 0; f < count; ++f) {
         file.take(3 * sizeof(float));  // the normal; it follows from the corners
         std::array<Vec3, 3> points;
         for (Vec3& point : points)
             for (int axis = 0; axis < 3; ++axis) point[axis] = file.take_number<float>(kIsBigEndian);
-        file.take(2);
-        add_face(surface, points, group, file.path());
+        const auto attribute = file.take_number<std::uint16_t>(kIsBigEndian);
+        if (has_labels)
+            group = groups.add("region_" + std::to_string(attribute), false);
+        else if (!group)
+            group = groups.add({}, true);
+        add_face(surface, points, *group, file.path());
     }
 }
 

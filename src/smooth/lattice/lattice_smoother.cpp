@@ -10,6 +10,7 @@
 #include "cells/compact_cells.h"
 #include "regionmesh/process.h"
 #include "smooth/tuning.h"
+#include "smooth/lattice/usual_reach.h"
 
 namespace regionmesh {
 namespace {
@@ -19,10 +20,7 @@ using smoothing::kLatticeMargin;
 /// Weights are rounded: they stay above the margin for which the faces are proved to be embedded.
 constexpr double kRoundedMargin = CompactCells::kInnerMargin + 1e-6;
 
-double largest_block(const LatticeFrame& frame, double reach) {
-    if (reach > 0) return reach;
-    return frame.is_anisotropic() ? smoothing::kLargestBlockAnisotropic : smoothing::kLargestBlock;
-}
+double largest_block(const LatticeFrame& frame, double reach) { return reach > 0 ? reach : usual_reach(frame.spacing); }
 
 /// Sites whose estimates vertices in the box need, in finest spacings from the origin: sweeps of lines reach beyond it.
 Box box_of_sites(const ChunkOrder& order) {

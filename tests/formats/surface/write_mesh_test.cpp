@@ -54,6 +54,7 @@ INSTANTIATE_TEST_SUITE_P(, ReadableFormat, testing::Values(".vtp", ".vtu", ".ply
                          [](const auto& tested) { return std::string(tested.param + 1); });
 
 TEST_P(ReadableFormat, grains_come_back_to_the_bit) {
+    if (GetParam() == std::string(".stl")) GTEST_SKIP() << "single precision: StlTest has it as text";
     write_mesh(grains().mesh, grains().labels, path("whole.vtp"));
     write_mesh(grains().mesh, grains().labels, path(std::string("m") + GetParam()));
     EXPECT_EQ(faces_of(read_mesh(path(std::string("m") + GetParam()))), faces_of(read_mesh(path("whole.vtp"))));
@@ -67,7 +68,7 @@ TEST_P(ReadableFormat, names_come_back) {
     const std::string file = std::string("m") + GetParam();
     write_mesh(nested(), nested_labels(), path(file), {.background = {2}, .names = names});
     if (GetParam() == std::string(".stl"))
-        EXPECT_THAT(text_of(path(file)), HasSubstr("solid region_5 " + names.at(5) + "\n"));
+        EXPECT_TRUE(read_mesh(path(file)).names.empty()) << "binary: labels alone";
     else
         EXPECT_EQ(read_mesh(path(file)).names, names);
 }
