@@ -9,8 +9,8 @@
 #include "base/reused_vector.h"
 #include "cells/compact_cells.h"
 #include "regionmesh/process.h"
-#include "smooth/tuning.h"
 #include "smooth/lattice/usual_reach.h"
+#include "smooth/tuning.h"
 
 namespace regionmesh {
 namespace {
