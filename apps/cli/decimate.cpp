@@ -13,6 +13,7 @@ void print_summary(const Settings& settings, const Report& report) {
     say("{}: {} faces (from {}), lowest quality {:.3f}, {}", output_text(settings), report.final_faces,
         report.initial_faces, report.check.quality.min, counted(report.check.violation_count(), "violation"));
     print_smoothed_lines(report);
+    print_floor(report);
     print_improved(report);
 }
 

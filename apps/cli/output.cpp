@@ -134,6 +134,13 @@ void print_smoothed_lines(const Report& report) {
         report.smoothed_lines->turn_after);
 }
 
+void print_floor(const Report& report) {
+    if (!report.floor || report.floor->below_before == 0) return;
+    say("shape: {} below quality {:.3g} -> {}, lowest {:.3f} -> {:.3f}", counted(report.floor->below_before, "face"),
+        report.quality_bound.value_or(0), grouped(report.floor->below_after), report.floor->lowest_before,
+        report.floor->lowest_after);
+}
+
 void print_improved(const Report& report) {
     if (!report.improved) return;
     const FaceShapes &before = report.improved->before, &after = report.improved->after;
@@ -206,8 +213,9 @@ void print_stop(const Settings& settings, const Report& report) {
     const bool is_missed = asked.target_faces || asked.reduce;
     if (!reason && !settings.quiet && !settings.inputs.empty() && has_free_target(settings) &&
         is_lattice(settings, settings.inputs))
-        say("no target was given: faces that cost nothing are gone, up to {:.3g} off; --reduce 90% removes more, "
-            "--no-decimate keeps all",
+        say("no target was given: faces that cost nothing are gone, and no point is off by more than {:.3g}; --reduce "
+            "90% "
+            "removes more, --no-decimate keeps all",
             report.error_bound);
     if (!reason || (settings.quiet && !is_missed)) return;
     const std::string line = fmt::format("{}: {}", is_missed ? "stopped before the target" : "stopped", reason);

@@ -73,6 +73,9 @@ int exit_code(const Report& report);
 
 /// Prints how much lines turned before and after they were smoothed, if they were.
 void print_smoothed_lines(const Report& report);
+/// Prints what was done about faces below the bound on quality, if there were any.
+void print_floor(const Report& report);
+
 /// Prints the shape of the faces before and after they were improved, if they were.
 void print_improved(const Report& report);
 

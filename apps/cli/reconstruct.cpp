@@ -84,6 +84,7 @@ void print_summary(const Settings& settings, const Reconstruction& made, const s
     const CheckReport& check = report.check;
     print_details(report);
     print_smoothed_lines(report);
+    print_floor(report);
     print_improved(report);
     print_stop(settings, report);
     print_volumes(report.preserved);
@@ -150,8 +151,7 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, co
         if constexpr (requires { reader.info().lattice; })
             options = with_free_target(settings, reader.info().lattice.spacing);
         Reconstruction made = reconstruct(reader, options, on_progress, on_model);
-        if (options.promises.max_error < HUGE_VAL && !has_target(settings))
-            made.report.stopped = StopReason::kNoneAsked;
+        if (options.free_error > 0) made.report.stopped = StopReason::kNoneAsked;
         line.clear();
         warnings.show();
         warn_of_rest(reader, warned);

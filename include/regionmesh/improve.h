@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "regionmesh/mesh.h"
 #include "regionmesh/promises.h"
+#include "regionmesh/vec3.h"
 
 namespace regionmesh {
 
@@ -39,5 +41,21 @@ struct ImproveResult {
 /// quality of the mesh never falls. Deterministic. Requires that every vertex that is not fixed has all its faces in
 /// the mesh. Renumbers vertices and faces. Throws like simplify().
 ImproveResult improve(Mesh& mesh, const ImproveOptions& options);
+
+/// What was done about faces below the bound on quality.
+struct FloorResult {
+    std::uint64_t collapses = 0, flips = 0, moves = 0, splits = 0;
+    std::uint64_t below_before = 0, below_after = 0;  // faces
+    double lowest_before = 0, lowest_after = 0;       // quality; 0 for a mesh without faces
+    std::vector<Vec3> left = {};                      // middles of the first kMostLeft faces still below
+    static constexpr std::size_t kMostLeft = 100;
+};
+
+/// Raises the faces below the bound on quality (P 4.3): each gets every cure that the promises allow, a collapse of one
+/// of its edges, a flip, a move of a corner within its stratum, a split of its longest edge, in rounds until none
+/// helps. Each step lowers no worst quality, so that no other face gets below. Faces stay below where topology or
+/// samples hold all of their corners. May leave a few faces more than there were. Deterministic; requires and throws
+/// what improve() does.
+FloorResult raise_floor(Mesh& mesh, const Promises& promises);
 
 }  // namespace regionmesh

@@ -144,7 +144,7 @@ void resolve_options(Settings& settings, const LabelNames& names, std::optional<
 /// Where no target is given, faces that cost nothing are removed: the largest error, as a share of the finest spacing.
 inline constexpr double kFreeError = 0.05;
 
-/// `settings.reconstruct` for a volume with this spacing: with kFreeError as largest error where no target is given and
+/// `settings.reconstruct` for a volume with this spacing: with kFreeError as free error where no target is given and
 /// decimation is not turned off.
 ReconstructOptions with_free_target(const Settings& settings, const Vec3& spacing);
 

@@ -44,6 +44,9 @@ struct ReconstructOptions {
     bool smooth_lines = false;                          // a pass that smooths lines of three regions
     bool improve = false;                               // a last pass that makes faces better, for finite elements
     bool preserve_volume = false;           // finally give each region its volume before smoothing and decimation
+    double free_error = 0;                  // without a target or a largest error: faces go that decimation can spare
+                                            // within this distance, a length; 0: none. No promise: what follows, such
+                                            // as raise_floor(), may go farther
     bool decimate = true;                   // false: no decimation, even with a target
     bool cap = true;                        // --boundary cap; false: open
     std::vector<InputLabel> background{0};  // empty space: its faces with the exterior are not made

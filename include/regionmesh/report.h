@@ -35,6 +35,7 @@ struct Report {
     std::uint64_t refreshes = 0;
     StopReason stopped = StopReason::kNoneAsked;
     std::optional<double> quality_bound;  // of faces that decimation changes, with z scaled; none without decimation
+    std::optional<FloorResult> floor;     // what was done about faces below that; none without decimation
     std::optional<SmoothLinesResult> smoothed_lines;  // where ReconstructOptions::smooth_lines asked for it
     std::optional<ImproveResult> improved;            // where ReconstructOptions::improve asked for it
     double error_bound = 0;  // no point of the surface before or after decimation is farther from the other

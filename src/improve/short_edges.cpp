@@ -51,26 +51,13 @@ bool ShortEdges::try_place(Vec3 p) {
     if (!after.is_better_than(before)) return false;
     float drift = std::max(drift_.of(star.goes), drift_.of(star.stays));
     for (VertexId w : star.link) drift = std::max(drift, drift_.of(w));
-    const double step = step_to(p);
+    const double step = step_to(star, p);
     if (!drift_.may_move(drift, step, true) || verdict_at(judge_, change_, {p}) != Verdict::kAccepted) return false;
     changed_ = star.link;
     changed_.push_back(star.stays);
     judge_.apply(change_);
     drift_.set(star.stays, drift, step);
     return true;
-}
-
-/// How far the merged vertex is from the planes of the faces that move, or from the end that goes farther.
-double ShortEdges::step_to(Vec3 p) const {
-    const EdgeStar& star = change_.star;
-    double step = 0;
-    for (int n = 0; n < star.face_count(); ++n) {
-        const StarPair& pair = star.pairs[n / 2];
-        const double size = std::sqrt(pair.old_length2[n % 2]);
-        const double height = std::abs(dot(pair.old_normal[n % 2], p - star.at_apex(n)));
-        step = std::max(step, size > 0 ? height / size : HUGE_VAL);
-    }
-    return std::min(step, std::max(length(p - star.at_goes), length(p - star.at_stays)));
 }
 
 }  // namespace regionmesh

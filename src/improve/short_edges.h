@@ -22,7 +22,6 @@ public:
 private:
     bool try_edge(VertexId goes, VertexId stays);
     bool try_place(Vec3 p);
-    double step_to(Vec3 p) const;
 
     Judge& judge_;
     const Mesh& mesh_;

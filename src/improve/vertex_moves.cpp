@@ -12,11 +12,14 @@ namespace regionmesh {
 namespace {
 
 /// Of the places found, the best ones are tested.
-constexpr std::size_t kAttempts = 3;
+constexpr std::size_t kAttempts = 3, kFreeAttempts = 30;
 
 /// Shares of the way to a target, and along a line toward the next vertex.
 constexpr std::array kSteps{1.0, 0.5, 0.25, 0.1};
 constexpr std::array kLineSteps{0.05, 0.15, 0.3, 0.5};
+
+/// Lengths of moves in any direction, in units of the scale.
+constexpr std::array kFreeSteps{0.01, 0.02, 0.04, 0.08, 0.16, 0.3};
 
 /// Height of an equilateral triangle of side 1.
 constexpr double kIdealHeight = 0.8660254037844386;
@@ -35,6 +38,18 @@ std::optional<Vec3> point_on_star(const EdgeStar& star, Vec3 apex, Vec3 target, 
     return {};
 }
 
+/// The axes, the diagonals between two and between three of them, both ways, as unit vectors; those that leave no side.
+std::vector<Vec3> directions_along(SideSet sides) {
+    std::vector<Vec3> directions;
+    for (int n = 0; n < 27; ++n) {
+        const Vec3 way(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+        bool leaves = length2(way) == 0;
+        for (int axis = 0; axis < 3; ++axis) leaves |= way[axis] != 0 && (sides >> (2 * axis) & 3) != 0;
+        if (!leaves) directions.push_back(way / length(way));
+    }
+    return directions;
+}
+
 double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
     const Vec3 along = b - a;
     const double share = std::clamp(dot(p - a, along) / length2(along), 0.0, 1.0);
@@ -47,21 +62,42 @@ VertexMoves::VertexMoves(Judge& judge, SurfaceDrift& drift, double poor)
     : judge_(judge), mesh_(judge.mesh()), drift_(drift), poor3_(poor * poor * poor) {}
 
 bool VertexMoves::try_move(VertexId v) {
-    const Vertex& vertex = mesh_[v];
-    if (!vertex.is_alive || vertex.is_fixed || vertex.star == kNoCorner || vertex.label_count > 3) return false;
-    const EdgeStar& star = change_.star;
-    gather_move(mesh_, v, change_.star);
-    now_ = shape_at(star.at_goes);
-    drift_now_ = drift_.of(v);
-    for (VertexId w : star.link) drift_now_ = std::max(drift_now_, drift_.of(w));
-    candidates_.clear();
-    if (vertex.label_count == 3)
+    if (mesh_[v].label_count > 3 || !gather(v)) return false;
+    if (mesh_[v].label_count == 3)
         gather_line();
-    else if (star.is_interface)
+    else if (change_.star.is_interface)
         gather_interface();
+    return take_best(v, kAttempts);
+}
+
+bool VertexMoves::try_any_direction(VertexId v) {
+    if (!gather(v)) return false;
+    const EdgeStar& star = change_.star;
+    const Vec3 at = star.at_goes;
+    for (const Vec3 direction : directions_along(mesh_[v].sides))
+        for (const double share : kFreeSteps) {
+            const Vec3 p = at + share * judge_.promises().scale * direction;
+            add_candidate(p, step_to(star, p));
+        }
+    return take_best(v, kFreeAttempts);
+}
+
+/// Gathers the star of a vertex that may move, without candidates.
+bool VertexMoves::gather(VertexId v) {
+    const Vertex& vertex = mesh_[v];
+    if (!vertex.is_alive || vertex.is_fixed || vertex.star == kNoCorner) return false;
+    gather_move(mesh_, v, change_.star);
+    now_ = shape_at(change_.star.at_goes);
+    drift_now_ = drift_.of(v);
+    for (VertexId w : change_.star.link) drift_now_ = std::max(drift_now_, drift_.of(w));
+    candidates_.clear();
+    return true;
+}
+
+bool VertexMoves::take_best(VertexId v, std::size_t attempts) {
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Candidate& a, const Candidate& b) { return a.energy < b.energy; });
-    for (std::size_t n = 0; n < std::min(candidates_.size(), kAttempts); ++n) {
+    for (std::size_t n = 0; n < std::min(candidates_.size(), attempts); ++n) {
         const Candidate& best = candidates_[n];
         if (verdict_at(judge_, change_, {best.at}) != Verdict::kAccepted) continue;
         judge_.apply(change_);

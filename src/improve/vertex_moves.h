@@ -17,6 +17,9 @@ public:
 
     /// Moves the vertex to the best place found that no test refuses. The vertices around it are then those of link().
     bool try_move(VertexId v);
+    /// The same in any direction that the sides of the box leave, for a vertex of any stratum: lines and points where
+    /// regions meet move, too. For the corners of a face that nothing else cures.
+    bool try_any_direction(VertexId v);
     const std::vector<VertexId>& link() const { return change_.star.link; }
 
 private:
@@ -26,6 +29,8 @@ private:
         double step;    // by which the surface moves
     };
 
+    bool gather(VertexId v);
+    bool take_best(VertexId v, std::size_t attempts);
     FanShape shape_at(Vec3 p) const;
     void gather_line();
     void gather_interface();

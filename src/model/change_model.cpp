@@ -9,6 +9,7 @@
 #include "regionmesh/smooth.h"
 #include "regionmesh/smooth_lines.h"
 #include "regionmesh/write_report.h"
+#include "simplify/decimate.h"
 #include "stream/run_promises.h"
 
 namespace regionmesh {
@@ -82,7 +83,11 @@ ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOpti
     {
         const Timer timer(report.seconds["decimate"]);
         note_simplified(simplify(mesh, options), report);
-        if (has_target(settings)) report.quality_bound = promises.quality_bound();
+        if (has_target(settings)) {
+            report.quality_bound = promises.quality_bound();
+            report.floor = raise_floor(mesh, promises);
+            report.error_bound = trim_added(mesh, options, report.stopped, report.verdicts);
+        }
     }
     if (settings.reconstruct.smooth_lines) {
         const Timer timer(report.seconds["smooth lines"]);

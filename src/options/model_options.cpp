@@ -30,13 +30,12 @@ bool is_usual_smoothing(const Settings& settings, const Vec3& spacing) {
 
 bool has_free_target(const Settings& settings) {
     const ReconstructOptions& asked = settings.reconstruct;
-    return asked.decimate && !has_target(settings) && !asked.preserve_volume;  // whose step an error would bound
+    return asked.decimate && !has_target(settings);
 }
 
 ReconstructOptions with_free_target(const Settings& settings, const Vec3& spacing) {
     ReconstructOptions options = settings.reconstruct;
-    if (has_free_target(settings))
-        options.promises.max_error = kFreeError * std::min({spacing.x, spacing.y, spacing.z});
+    if (has_free_target(settings)) options.free_error = kFreeError * std::min({spacing.x, spacing.y, spacing.z});
     return options;
 }
 

@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include "judge/error_bound.h"
 #include "simplify/tiles/mesh_chunk.h"
 
 namespace regionmesh {
@@ -51,6 +52,12 @@ void collapse_to_target(Mesh& mesh, const DecimatePlan& plan, const SimplifyOpti
     result.refreshes += done.refreshes;
     result.stopped = done.stopped;
     result.bytes = std::max(result.bytes, mesh_bytes + done.bytes);
+}
+
+double trim_added(Mesh& mesh, const SimplifyOptions& options, StopReason stopped, VerdictCounts& verdicts) {
+    if (stopped == StopReason::kTarget && mesh.face_count() > options.target_faces)
+        add(verdicts, collapse_edges(mesh, options, {.threads = options.threads}).verdicts);
+    return largest_error_bound(mesh);
 }
 
 }  // namespace regionmesh

@@ -33,4 +33,8 @@ Mesh decimate(Chunk surface, const DecimatePlan& plan, const SimplifyOptions& op
 /// The last part: the mesh is sorted.
 void collapse_to_target(Mesh& mesh, const DecimatePlan& plan, const SimplifyOptions& options, DecimateResult& result);
 
+/// Removes the faces that a stage after decimation added beyond the target, if decimation reached it. Returns the
+/// largest bound on the error.
+double trim_added(Mesh& mesh, const SimplifyOptions& options, StopReason stopped, VerdictCounts& verdicts);
+
 }  // namespace regionmesh

@@ -77,7 +77,8 @@ BudgetDemand demand_of(const SourceShape& shape, const Target& target, std::vect
 }  // namespace
 
 bool is_decimating(const ReconstructOptions& options) {
-    return options.decimate && (options.target_faces || options.reduce || options.promises.max_error < HUGE_VAL);
+    return options.decimate &&
+           (options.target_faces || options.reduce || options.promises.max_error < HUGE_VAL || options.free_error > 0);
 }
 
 std::vector<std::uint64_t> guessed_strip_faces(const Lattice& lattice, Sweep sweep) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "judge/error_bound.h"
+#include "regionmesh/improve.h"
 #include "simplify/decimate.h"
 #include "stream/footprint.h"
 #include "stream/stage_options.h"
@@ -78,8 +79,19 @@ void SimplifyStage::bring_to_target() {
     log_.advance(WorkStage::kPasses, 1);
     take_mesh();
     trim(goal, HUGE_VAL, true);
+    keep_floor(goal);
     log_.report().stopped = stopped_;
     log_.report().error_bound = largest_error_bound(mesh_);
+}
+
+/// Cures the faces below the bound on quality that smoothing made and no collapse removed. Splits add a few faces: as
+/// many go again.
+void SimplifyStage::keep_floor(std::uint64_t goal) {
+    {
+        const StageTimer timer = log_.time("floor");
+        log_.report().floor = raise_floor(mesh_, promises_of(options_, ground_of(shape_)));
+    }
+    if (stopped_ == StopReason::kTarget && mesh_.face_count() > goal) trim(goal, HUGE_VAL, true);
 }
 
 /// Brings the model near the goal, tile by tile.

@@ -27,6 +27,7 @@ private:
     void raise_threshold(std::uint64_t goal, double safe_high);
     void warn_of_memory(double faces, const char* stage);
     void take_mesh();
+    void keep_floor(std::uint64_t goal);
     void trim(std::uint64_t goal, double safe_high, bool is_last);
 
     Mesh& mesh_;

@@ -59,7 +59,10 @@ double section_scale(const VolumeInfo& volume, const ReconstructOptions& options
 }
 
 SimplifyOptions simplify_options(const ReconstructOptions& options, const SourceShape& shape) {
-    SimplifyOptions own = simplify_options(options, promises_of(options, ground_of(shape)));
+    Promises promises = promises_of(options, ground_of(shape));
+    const bool has_target = options.target_faces || options.reduce || promises.max_error < HUGE_VAL;
+    if (!has_target && options.free_error > 0) promises.max_error = options.free_error;
+    SimplifyOptions own = simplify_options(options, promises);
     // If the hull is open, a line may leave a domain that is not convex and come back in another region.
     own.bounds_regions = options.cap || shape.has_samples;
     own.removes_folds = shape.has_samples && options.smooth.passes > 0 && is_lattice(options.smooth.filter);

@@ -66,6 +66,20 @@ Json shapes_json(const FaceShapes& shapes) {
             {"faces_below", shapes.faces_below}};
 }
 
+Json floor_json(const FloorResult& done) {
+    Json left = Json::array();
+    for (const Vec3 at : done.left) left.push_back({at.x, at.y, at.z});
+    return {{"faces_below_before", done.below_before},
+            {"faces_below", done.below_after},
+            {"lowest_before", done.lowest_before},
+            {"lowest", done.lowest_after},
+            {"collapses", done.collapses},
+            {"flips", done.flips},
+            {"moves", done.moves},
+            {"splits", done.splits},
+            {"left", left}};
+}
+
 Json lines_json(const SmoothLinesResult& done) {
     return {{"vertices", done.vertices},     {"moves", done.moves},
             {"sweeps", done.sweeps},         {"turn_before", done.turn_before},
@@ -193,6 +207,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
                                  {"regions_off", report.preserved.regions_off},
                                  {"held_vertices", report.preserved.held_vertices}};
     if (report.smoothed_lines) json["smoothed_lines"] = lines_json(*report.smoothed_lines);
+    if (report.floor) json["floor"] = floor_json(*report.floor);
     if (report.improved) json["improved"] = improved_json(*report.improved);
     put_check(json, report.check, labels, names, &report);
     if (report.samples) put_samples(json, *report.samples, labels);

@@ -35,11 +35,12 @@ TEST(ReportJson, has_all_keys_and_no_others) {
     report.seconds = {{"mesh", 1.0}, {"total", 1.5}};
     report.quality_bound = 0.1;
     report.smoothed_lines.emplace();
+    report.floor.emplace();
     const Json json = Json::parse(report_json(report, test::labels_from({7, 3}), {}, {}, 0.001));
     EXPECT_EQ(json["unit"], "mm");
     EXPECT_THAT(keys_of(json),
                 testing::UnorderedElementsAre(
-                    "quality_bound", "smoothed_lines", "initial_faces", "initial_vertices", "final_faces",
+                    "quality_bound", "smoothed_lines", "floor", "initial_faces", "initial_vertices", "final_faces",
                     "final_vertices", "unit", "error_bound", "seconds", "stage_bytes", "peak_bytes", "peak_faces",
                     "bytes_per_face", "verdicts", "refreshes", "samples_in_room", "denoise", "stopped", "smoothing",
                     "volumes_preserved", "quality", "regions", "triple_lines", "region_pairs", "pinned_vertices",
@@ -52,8 +53,8 @@ TEST(ReportJson, has_all_keys_and_no_others) {
     EXPECT_EQ(json["violation_counts"].size(), std::size_t{kViolationKindCount});
     std::ifstream page(test::source_folder() + "/docs/reference/report.md");
     const std::string docs(std::istreambuf_iterator<char>(page), {});
-    for (const Json& part :
-         {json, json["quality"], json["regions"][0], json["verdicts"], json["smoothing"], json["smoothed_lines"]})
+    for (const Json& part : {json, json["quality"], json["regions"][0], json["verdicts"], json["smoothing"],
+                             json["smoothed_lines"], json["floor"]})
         for (const std::string& key : keys_of(part)) EXPECT_THAT(docs, testing::ContainsRegex('`' + key + "(`|\\[)"));
 }
 
