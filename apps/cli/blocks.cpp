@@ -161,6 +161,7 @@ void require_fit_of_blocks(const Settings& settings) {
                    "is for a model in one file, and --output is a folder of pieces; leave it out, and give the folder "
                    "to regionmesh convert or check");
     require_block_options(settings.reconstruct);
+    refuse_prepared_blocks(settings);
     if (settings.inputs.front() == "-" && shared_tasks && shared_tasks->processes() > 1)
         throw Error(ErrorCode::kUsage, "standard input: one process alone can read it; name a file");
     require_fit(settings, settings.inputs);
@@ -300,6 +301,8 @@ int run_blocks(const Settings& settings) {
     line.clear();
     if (!tasks.is_first()) return kGood;
     warn_of_passes(settings);
+    if (!settings.prepare.between && far_axis(open_volume(settings, settings.inputs)->info().lattice))
+        say_more("sections: none put between others (--between auto): blocks are made of the sections as they are");
     print_summary(settings, report);
     const bool has_lost = settings.reconstruct.keep_samples && report.samples && report.samples->wrong > 0;
     return has_lost ? kViolations : exit_code(report.check);

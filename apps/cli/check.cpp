@@ -17,9 +17,20 @@ namespace {
 
 constexpr int kListed = 3;  // findings printed of each kind; the JSON has up to CheckOptions::listed
 
-/// The volume that the model was made from, with the labels that --room or --denoise gave it.
-std::unique_ptr<SectionReader> open_modelled(const Settings& settings) {
-    return modelled_sections(open_volume(settings, settings.sections), settings.reconstruct);
+/// The volume that the model was made from, with the sections that were put between, and the labels that --room or
+/// --denoise gave. A model says how far its samples lie apart: it was made as they tell, unless --between says
+/// otherwise.
+std::unique_ptr<SectionReader> open_modelled(const Settings& given, const MeshFile& file) {
+    Settings settings = given;
+    const auto& spacing = file.coordinates.spacing;
+    const bool is_piped = std::ranges::find(given.sections, "-") != given.sections.end();
+    if (spacing && !is_piped && !given_text(given, "between") && kind_of_input(given.sections) == kVolumeInput) {
+        const auto made = between_of_model(open_volume(given, given.sections)->info().lattice, *spacing);
+        settings.prepare.between = made ? made->between : 0;
+        constexpr SweepChoice kAlong[] = {SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
+        if (made) settings.volume.sweep = kAlong[made->axis];
+    }
+    return modelled_sections(open_prepared_volume(settings, settings.sections).reader, settings.reconstruct);
 }
 
 void print_findings(const std::string& name, const CheckReport& report) {
@@ -48,7 +59,7 @@ void require_readable_twice(const Settings& settings) {
 std::optional<SampleAgreement> compare_with_sections(const Settings& settings, MeshFile& file,
                                                      const CheckOptions& options) {
     if (!has_samples(settings)) return {};
-    const auto reader = open_modelled(settings);
+    const auto reader = open_modelled(settings, file);
     return compare_samples(file.mesh, file.labels, options.background, *reader, options.threads);
 }
 
@@ -117,7 +128,7 @@ std::optional<LabelOracle> oracle_of(const Settings& settings, MeshFile& file, c
         if constexpr (requires { reader.info().lattice; }) print_misfit(settings, file, reader, counted, background);
         return relabelled(counted.oracle, counted.labels, file.labels);
     };
-    if (is_lattice(settings, settings.sections)) return oracle_from(*open_modelled(settings));
+    if (is_lattice(settings, settings.sections)) return oracle_from(*open_modelled(settings, file));
     return oracle_from(*open_unstructured(settings, settings.sections));
 }
 
@@ -133,11 +144,13 @@ int check_folder(const Settings& given) {
     const std::string& path = given.models.front();
     require_fit_of_folder(path, given.surface);
     MeshFile file = describe_block_folder(path);
-    const Settings settings = settings_for(given, file);
+    Settings settings = settings_for(given, file);
+    refuse_prepared_blocks(settings);
+    settings.prepare = {};
     CheckOptions options = check_options(settings, file.labels);
     std::optional<SampleAgreement> samples;
     if (!settings.sections.empty()) {
-        const auto reader = open_modelled(settings);
+        const auto reader = open_modelled(settings, file);
         warn_of_units(path, file.coordinates.metres, settings.sections.front(), reader->info().metres);
         const Census census = count_labels(*reader, census_options(settings));
         options.oracle = relabelled(census.oracle, census.labels, file.labels);

@@ -15,7 +15,8 @@
 namespace regionmesh::cli {
 namespace {
 
-constexpr std::size_t kShown = 20;  // labels, without --all
+constexpr std::size_t kShown = 20;    // labels, without --all
+constexpr double kLeastJitter = 0.5;  // samples: less changes nothing when it is taken out
 
 /// Prints a row for each of `order`, or for the first only; row(label) gives it. `plural` is what they are.
 template <class Row>
@@ -106,6 +107,28 @@ std::string print_info(const Settings& settings, SectionReader& reader) {
     return info_json(info, census, roughness);
 }
 
+/// What --between and --align would do: one line each, where there is something to say.
+void print_sections(const Settings& settings) {
+    const auto open = [&](SweepChoice sweep) {
+        Settings own = settings;
+        own.volume.sweep = sweep;
+        return open_volume(own, own.inputs);
+    };
+    const auto sections = open_as_cut(open, settings.volume.sweep);
+    const VolumeInfo& info = sections->info();
+    if (!info.can_rewind || sections->section_count() < 2) return;
+    const JitterSum jitter = summed(find_jitter(*sections, AlignKind::kTranslate));
+    if (jitter.rms >= kLeastJitter)
+        fmt::print(
+            "jitter     {:.1f} samples (root mean square), largest {:.1f} in section {}: --align translate takes it "
+            "out\n",
+            jitter.rms, jitter.largest, jitter.section);
+    if (far_axis(info.lattice) != info.sweep.axes[2]) return;
+    const PartPairs pairs = count_part_pairs(*sections);
+    fmt::print("parts      {} of neighbouring sections, {} do not overlap\n",
+               counted(pairs.overlapping + pairs.apart, "pair"), grouped(pairs.apart));
+}
+
 /// A folder of pieces is read piece by piece.
 std::string print_info(const Settings& given, const std::string& path) {
     const bool is_folder = is_block_folder(path);
@@ -152,6 +175,7 @@ std::string print_input(const Settings& settings) {
     return with_reader(settings, settings.inputs, [&](auto& reader) {
         const std::string warned = reader.info().warning;
         std::string json = print_info(settings, reader);
+        if (kind_of_input(settings.inputs) == kVolumeInput && settings.inputs.front() != "-") print_sections(settings);
         warn_of_rest(reader, warned);
         warn_of_grey_scale(settings, reader);
         return json;

@@ -45,6 +45,12 @@ std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::
     return with_warning(open_lattice(settings, inputs));
 }
 
+PreparedSections open_prepared_volume(const Settings& settings, const std::vector<std::string>& inputs) {
+    PreparedSections made = open_prepared(settings, inputs);
+    made.reader = with_warning(std::move(made.reader));
+    return made;
+}
+
 std::unique_ptr<TetrahedronReader> open_unstructured(const Settings& settings, const std::vector<std::string>& inputs) {
     return with_warning(open_tetrahedra(inputs.front(), settings.tetrahedra));
 }
@@ -89,6 +95,14 @@ bool has_extension(const std::string& path, const std::string& extensions) {
 void refuse_options(const Settings& settings, std::span<const std::string_view> names, const std::string& why) {
     for (const auto& [name, text] : settings.given)
         if (std::ranges::find(names, name) != names.end()) throw Error(ErrorCode::kUsage, "--" + name + ": " + why);
+}
+
+void refuse_prepared_blocks(const Settings& settings) {
+    const bool is_between = settings.prepare.between.value_or(0) > 0;
+    if (is_between || settings.prepare.align != AlignKind::kOff)
+        throw Error(ErrorCode::kUsage, std::string(is_between ? "--between" : "--align") +
+                                           ": a folder of pieces is made of the sections as they are; leave it out, or "
+                                           "make a model in one file");
 }
 
 void require_fit_of_folder(const std::string& path, const ReadMeshOptions& options) {

@@ -16,6 +16,9 @@ namespace regionmesh::cli {
 /// open_lattice(), with a warning of what the reader decided: once in a run, which may open its input several times.
 std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::vector<std::string>& inputs);
 
+/// open_prepared(), with the same warning.
+PreparedSections open_prepared_volume(const Settings& settings, const std::vector<std::string>& inputs);
+
 /// The same with open_tetrahedra(), of the first input.
 std::unique_ptr<TetrahedronReader> open_unstructured(const Settings& settings, const std::vector<std::string>& inputs);
 
@@ -41,9 +44,13 @@ bool has_extension(const std::string& path, const std::string& extensions);
 /// Throws Error(kUsage), "--name: why", where one of these options was given.
 void refuse_options(const Settings& settings, std::span<const std::string_view> names, const std::string& why);
 
-/// A surface from a file, or from a folder of pieces.
+/// Throws Error(kUsage) where sections are to be put between others, or moved: blocks are made of them as they are.
+void refuse_prepared_blocks(const Settings& settings);
+
 /// Throws Error(kUsage) for options about how a file becomes a model, which a folder of pieces is already.
 void require_fit_of_folder(const std::string& path, const ReadMeshOptions& options);
+
+/// A surface from a file, or from a folder of pieces.
 MeshFile read_model(const std::string& path, const ReadMeshOptions& options = {});
 
 /// What count_labels() takes from the settings.

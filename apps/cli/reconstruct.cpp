@@ -121,10 +121,22 @@ private:
     bool is_shown_ = false;
 };
 
+void print_sections(const PreparedSections& made) {
+    if (made.sections_moved > 0)
+        say("sections: {} moved in their plane, by up to {:.1f} samples (--align)",
+            counted(made.sections_moved, "section"), made.largest_shift);
+    if (made.between == 0) return;
+    const std::string why = made.pairs > 0 ? fmt::format(" (--between auto: of {} matching parts, {} do not overlap)",
+                                                         counted(made.pairs, "pair") + " of", grouped(made.pairs_apart))
+                                           : "";
+    say("sections: {} put between each two of the input{}", made.between, why);
+}
+
 /// What the input says besides its samples.
 struct ModelNotes {
     Described labels;
     Coordinates coordinates = {};
+    PreparedSections sections = {};
 };
 
 /// Reconstructs the input, whichever kind it is of. Sets `notes` to what it says about its labels and its coordinates,
@@ -133,7 +145,7 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, co
     ProgressLine line(settings.quiet);
     MemoryWarning memory(settings);
     HeldWarnings warnings;  // until the input is counted
-    return with_reader(settings, settings.inputs, [&](auto& reader) {
+    const auto make = [&](auto& reader) {
         const std::string warned = reader.info().warning;
         LabelColours colours;
         if constexpr (requires { reader.info().colours; }) colours = reader.info().colours;
@@ -156,7 +168,16 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, co
         warnings.show();
         warn_of_rest(reader, warned);
         return made;
-    });
+    };
+    require_fit(settings, settings.inputs);
+    if (!is_lattice(settings, settings.inputs)) return make(*open_unstructured(settings, settings.inputs));
+    notes.sections = open_prepared_volume(settings, settings.inputs);
+    print_sections(notes.sections);
+    Reconstruction made = make(*notes.sections.reader);
+    made.report.sections_between = notes.sections.between;
+    made.report.sections_moved = notes.sections.sections_moved;
+    made.report.largest_section_shift = notes.sections.largest_shift;
+    return made;
 }
 
 /// A sample that has another label in the model than in the input, by its number with x fastest, then y.
@@ -166,8 +187,9 @@ struct ChangedSample {
 };
 
 std::vector<ChangedSample> changed_samples(const Settings& settings) {
-    const auto given = open_volume(settings, settings.inputs);
-    const auto modelled = modelled_sections(open_volume(settings, settings.inputs), settings.reconstruct);
+    const auto given = open_prepared_volume(settings, settings.inputs).reader;
+    const auto modelled =
+        modelled_sections(open_prepared_volume(settings, settings.inputs).reader, settings.reconstruct);
     const auto& axes = given->info().sweep.axes;
     const auto& size = given->info().lattice.size;
     const std::array<std::uint64_t, 3> steps{1, size[0], std::uint64_t{size[0]} * size[1]};
@@ -189,8 +211,12 @@ void write_modelled_labels(const Settings& settings) {
     const std::vector<ChangedSample> changed = changed_samples(settings);
     Settings along_z = settings;
     along_z.volume.sweep = SweepChoice::kZ;
-    const auto reader = open_volume(along_z, settings.inputs);
+    const auto reader = open_prepared_volume(along_z, settings.inputs).reader;
     const VolumeInfo& info = reader->info();
+    if (info.sweep.axes[2] != 2)
+        throw Error(ErrorCode::kUsage,
+                    "--write-labels: sections were put between others that do not lie along z; give "
+                    "--between off");
     const auto writer = create_volume(settings.write_labels, info.lattice, coordinates_of(info), info.type,
                                       settings.writing, info.type == SampleType::kU64);
     std::vector<InputLabel> section(std::size_t{reader->section_width()} * reader->section_height());

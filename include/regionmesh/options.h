@@ -12,6 +12,7 @@
 #include "regionmesh/compare.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/page.h"
+#include "regionmesh/prepare_sections.h"
 #include "regionmesh/read_layers.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
@@ -29,6 +30,8 @@ struct Settings {
     std::vector<std::string> models;    // surfaces to read: one, or two to compare
     std::vector<std::string> sections;  // the input to check a model against, or to voxelise it like
     ReadOptions volume;
+    PrepareOptions prepare{.between =
+                               std::nullopt};  // of sections that are modelled; its threads are those of reconstruct
     TetrahedraOptions tetrahedra;
     std::string layers;   // LayerOptions::units; empty: drill holes become tetrahedra, not layers
     std::string terrain;  // LayerOptions::terrain
@@ -192,6 +195,9 @@ bool is_lattice(const Settings& settings, const std::vector<std::string>& inputs
 
 /// Opens such an input.
 std::unique_ptr<SectionReader> open_lattice(const Settings& settings, const std::vector<std::string>& inputs);
+
+/// The same, prepared as Settings::prepare says, to be modelled.
+PreparedSections open_prepared(const Settings& settings, const std::vector<std::string>& inputs);
 
 /// The kind of the input, by the name of its first file.
 InputKind kind_of_input(const std::vector<std::string>& inputs);

@@ -12,6 +12,7 @@
 #include "regionmesh/limits.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/mesh_arrays.h"
+#include "regionmesh/prepare_sections.h"
 #include "regionmesh/process.h"
 #include "regionmesh/reconstruct.h"
 #include "regionmesh/report.h"

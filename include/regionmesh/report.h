@@ -41,6 +41,9 @@ struct Report {
     double error_bound = 0;  // no point of the surface before or after decimation is farther from the other
     CheckReport check;
     DenoiseReport denoise;                   // what ReconstructOptions::denoise found and changed
+    std::uint32_t sections_between = 0;      // put between each two of the input, before anything else
+    std::uint32_t sections_moved = 0;        // in their plane, by PrepareOptions::align
+    double largest_section_shift = 0;        // of those, in samples
     std::uint64_t samples_in_room = 0;       // changed by ReconstructOptions::room, before anything else
     std::optional<SampleAgreement> samples;  // of sections; none where they cannot be read again, or the box is open
 };

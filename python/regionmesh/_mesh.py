@@ -357,7 +357,8 @@ class Mesh:
             source = opened(labels, (spacing, origin, direction))
             self._require_same_size(source.info)
             self._warn_of_units("check", "labels", source.info["metres"])
-        changes = (self._lattice or {}).get("made", {}).get("changes", [("denoise", "off")])
+        made = (self._lattice or {}).get("made", {})
+        changes = made.get("changes", [("denoise", "off")])
         return json.loads(_core.check(self._model, threads, source, changes))
 
     def _require_same_size(self, info):

@@ -53,7 +53,7 @@ def _from_files(labels, options, kept, described, progress):
 
 def _made(options, chosen, kept, place, size):
     """What Mesh.check needs to choose the same samples again."""
-    changes = [pair for pair in options if pair[0] in ("room", "denoise", "specks")]
+    changes = [pair for pair in options if pair[0] in ("room", "denoise", "specks", "between", "align")]
     return {"selection": chosen, "kept": kept, "place": place, "size": list(size), "changes": changes}
 
 

@@ -132,12 +132,18 @@ Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
     const ReconstructOptions& options = settings.reconstruct;
     Model model;
     watch.run([&] {
-        WatchedSections sections(*source.reader, watch);
+        PrepareOptions prepare = settings.prepare;
+        prepare.threads = options.threads;
+        const PreparedSections all = prepared(source, prepare);
+        WatchedSections sections(*all.reader, watch);
         StageProgress progress(watch, options);
         const VolumeInfo& info = sections.info();
         Reconstruction made = reconstruct(sections, with_free_target(settings, info.lattice.spacing),
                                           [&](const Progress& state) { progress(state); });
         if (!has_target(settings)) made.report.stopped = StopReason::kNoneAsked;
+        made.report.sections_between = all.between;
+        made.report.sections_moved = all.sections_moved;
+        made.report.largest_section_shift = all.largest_shift;
         model = model_from(std::move(made), run.names.value_or(info.names), !options.cap,
                            with_units_and_space(settings, coordinates_of(info)), run.colours.value_or(info.colours));
     });
@@ -261,6 +267,17 @@ Model smoothed(const Model& model, const OptionValues& options, Watch& watch) {
     return made;
 }
 
+/// How the sections are prepared: as the spacing of the model says, unless `between` is given.
+static PrepareOptions prepare_for(const Settings& settings, const Source& source, const Model& model,
+                                  std::uint32_t threads) {
+    PrepareOptions own = settings.prepare;
+    own.threads = threads;
+    if (given_text(settings, "between") || !model.coordinates.spacing) return own;
+    const auto made = between_of_model(source.reader->info().lattice, *model.coordinates.spacing);
+    own.between = made ? made->between : 0;
+    return own;
+}
+
 std::string check_text(const Model& given, std::uint32_t threads, Source* source, const OptionValues& changes,
                        Watch& watch) {
     std::string text;
@@ -273,8 +290,10 @@ std::string check_text(const Model& given, std::uint32_t threads, Source* source
         options.label_text = [&labels](Label label) { return labels.text(labels.input(label)); };
         std::optional<SampleAgreement> samples;
         if (source != nullptr) {
-            source->reader = modelled_sections(std::move(source->reader), settings_from(changes).reconstruct);
-            WatchedSections sections(*source->reader, watch);
+            const Settings settings = settings_from(changes);
+            const auto modelled = modelled_sections(
+                prepared(*source, prepare_for(settings, *source, model, threads)).reader, settings.reconstruct);
+            WatchedSections sections(*modelled, watch);
             const CensusOptions census{.cap = !model.is_open, .background = background_of(model), .threads = threads};
             const Census counted = count_labels(sections, census);
             options.oracle = relabelled(counted.oracle, counted.labels, labels);

@@ -100,6 +100,18 @@ private:
     std::uint32_t section_ = 0;
 };
 
+/// Sections of a reader that lives longer.
+class BorrowedSections : public SectionReader {
+public:
+    explicit BorrowedSections(SectionReader& reader) : reader_(reader) {}
+    const VolumeInfo& info() const override { return reader_.info(); }
+    bool next(std::span<InputLabel> section) override { return reader_.next(section); }
+    void rewind() override { reader_.rewind(); }
+
+private:
+    SectionReader& reader_;
+};
+
 /// With only these labels kept.
 Selection keeping(Selection selection, const KeptLabels& kept) {
     if (!kept) return selection;
@@ -123,7 +135,12 @@ Source array_source(const py::array& array, const Frame& frame, const ArrayOptio
                           {samples_along(array.shape(2), rest.name), samples_along(array.shape(1), rest.name),
                            samples_along(array.shape(0), rest.name)},
                           {array.strides(2), array.strides(1), array.strides(0)}};
-    return {array, open_array(view, placed(frame, rest))};
+    const auto open = [view, options = placed(frame, rest)](SweepChoice sweep) {
+        ArrayOptions own = options;
+        own.sweep = sweep;
+        return open_array(view, own);
+    };
+    return {array, open(rest.sweep), open, rest.sweep};
 }
 
 Source call_source(SectionCalls calls, const Frame& frame, const ArrayOptions& rest) {
@@ -152,7 +169,13 @@ Source file_source(const std::vector<std::string>& paths, const OptionValues& op
     Source source;
     {
         const py::gil_scoped_release release;
-        source.reader = open_sections({paths.begin(), paths.end()}, settings.volume);
+        source.sweep = settings.volume.sweep;
+        source.open = [paths, volume = settings.volume](SweepChoice sweep) {
+            ReadOptions own = volume;
+            own.sweep = sweep;
+            return open_sections({paths.begin(), paths.end()}, own);
+        };
+        source.reader = source.open(source.sweep);
     }
     warn_of(source.reader->info().source, source.reader->info().warning);
     return source;
@@ -164,7 +187,18 @@ Source select(Source source, const OptionValues& options, const KeptLabels& kept
     const py::gil_scoped_release release;
     if (!settings.volume.merge_table.empty()) read_merge_table(settings.volume.merge_table, selection);
     source.reader = select_sections(std::move(source.reader), selection);
+    if (source.open)
+        source.open = [open = std::move(source.open), selection](SweepChoice sweep) {
+            return select_sections(open(sweep), selection);
+        };
     return source;
+}
+
+PreparedSections prepared(Source& source, const PrepareOptions& options) {
+    const bool is_asked = options.between != 0u || options.align != AlignKind::kOff;
+    if (source.open && is_asked) return prepare_sections(source.open, source.sweep, options);
+    return prepare_sections([&](SweepChoice) { return std::make_unique<BorrowedSections>(*source.reader); },
+                            source.sweep, options);
 }
 
 }  // namespace regionmesh::python

@@ -12,6 +12,7 @@
 
 #include "regionmesh/array_sections.h"
 #include "regionmesh/options.h"
+#include "regionmesh/prepare_sections.h"
 #include "regionmesh/section_reader.h"
 
 namespace regionmesh::python {
@@ -22,7 +23,12 @@ namespace py = pybind11;
 struct Source {
     py::object owner;
     std::unique_ptr<SectionReader> reader;
+    OpenAlong open = {};                     // opens the same samples again; empty: they come along one axis alone
+    SweepChoice sweep = SweepChoice::kAuto;  // with which `reader` was opened
 };
+
+/// The sections of a source, prepared as Settings::prepare says. They refer to the source.
+PreparedSections prepared(Source& source, const PrepareOptions& options);
 
 /// Where samples lie, as Python passes it: x, y, z; the direction in row-major order; the metres in a unit of length;
 /// the name of the space, which may be empty.

@@ -94,6 +94,18 @@ std::unique_ptr<SectionReader> open_lattice(const Settings& settings, const std:
     return is_in_blocks ? std::move(sections) : as_plate(std::move(sections));
 }
 
+PreparedSections open_prepared(const Settings& settings, const std::vector<std::string>& inputs) {
+    if (kind_of_input(inputs) != kVolumeInput) return {.reader = open_lattice(settings, inputs)};
+    PrepareOptions options = settings.prepare;
+    options.threads = settings.reconstruct.threads;
+    const auto open = [&](SweepChoice sweep) {
+        ReadOptions volume = settings.volume;
+        volume.sweep = sweep;
+        return open_sections({inputs.begin(), inputs.end()}, volume);
+    };
+    return prepare_sections(open, settings.volume.sweep, options);
+}
+
 InputKind kind_of_input(const std::vector<std::string>& inputs) {
     const auto found = std::ranges::find_if(inputs, [](const auto& input) { return holds_tetrahedra(input); });
     if (found == inputs.end()) return kVolumeInput;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Range kQualities{kQualityRange.least, kQualityRange.most}, kRoom{kRoomRange.least, kRoomRange.most},
     kDenoise{0, kMostDenoise}, kSpecks{0, static_cast<double>(kMostSpeck)}, kPasses{0, kMostSmoothPasses},
-    kSampleCounts{1, 1e9}, kShareRange{0, 1}, kLengths{kLeastLength, kMostLength};
+    kBetween{0, kMostBetween}, kSampleCounts{1, 1e9}, kShareRange{0, 1}, kLengths{kLeastLength, kMostLength};
 
 /// Passes of taubin, laplacian and nifpms, and largest blocks of lattice.
 struct Strength {
@@ -32,6 +32,17 @@ void choose_strength(Settings& settings, const std::string& flag, const std::str
     }
     smooth.passes = known->passes;
     smooth.reach = known->reach;
+}
+
+void choose_between(Settings& settings, const std::string& flag, const std::string& text) {
+    std::optional<std::uint32_t>& between = settings.prepare.between;
+    between.reset();
+    if (text == "auto") return;
+    between = 0;
+    if (text == "off") return;
+    if (text.empty() || text.find_first_not_of("0123456789") != std::string::npos)
+        refuse_value(flag, text, "auto, off or a whole number of " + kBetween.text());
+    between = static_cast<std::uint32_t>(parse_count(flag, text, kBetween));
 }
 
 void choose_filter(Settings& settings, std::size_t word) {
@@ -117,6 +128,26 @@ Rows smoothing_rows() {
              .group = kGroup,
              .commands = kSmoothers},
             [](Settings& s) { return &s.reconstruct.smooth.lambda; }, kShareRange),
+        special_option(
+            {.name = "between",
+             .help = "sections to put between each two, from the shapes of their parts, so that far sections make no "
+                     "stairs and thin parts no holes. auto: about as many as make the lattice even, where parts do "
+                     "not overlap from section to section, else none",
+             .group = kGroup,
+             .commands = kReconstruct | kCheck,
+             .value = "auto|off|N",
+             .inputs = kVolumeInput,
+             .default_text = "auto"},
+            OptionKind::kText, choose_between),
+        word_option(
+            {.name = "align",
+             .help = "move sections in their plane where they lie off the trend of their neighbours, first: by whole "
+                     "samples, or turned, too",
+             .group = kGroup,
+             .commands = kReconstruct | kCheck,
+             .inputs = kVolumeInput},
+            {"off", "translate", "rigid"},
+            [](Settings& s, std::size_t word) { s.prepare.align = static_cast<AlignKind>(word); }),
         option(
             {.name = "room",
              .help = "samples nearer than this to the boundary of their region may change their label first, for noisy "

@@ -117,6 +117,8 @@ const std::vector<Effect> kEffects{
     {"smooth", "strong", Part::kFiles, kAll, kTaubin},
     {"smooth-filter", "laplacian", Part::kFiles},
     {"smooth-lambda", "0.2", Part::kFiles, kAll, kTaubin},
+    {"between", "1"},
+    {"align", "translate", Part::kAny, kAll, {.source = "{jittered}", .model = "{model_of_jittered}"}},
     {"room", "1"},
     {"denoise", "off"},
     {"specks", "off"},
@@ -227,6 +229,18 @@ std::string tetrahedron(double gap, bool is_turned) {
            "</Polys></Piece></PolyData></VTKFile>\n";
 }
 
+/// A tube through twelve sections of 30 x 30 samples, every second one moved by three samples.
+std::string jittered_tube() {
+    std::string labels;
+    for (int k = 0; k < 12; ++k)
+        for (int j = 0; j < 30; ++j)
+            for (int i = 0; i < 30; ++i) {
+                const int x = i - (k % 2 == 0 ? 13 : 16), y = j - 15;
+                labels += static_cast<char>(x * x + y * y < 60);
+            }
+    return labels;
+}
+
 class Effects : public Program {
 protected:
     struct Result {
@@ -265,6 +279,7 @@ protected:
         put("many", "many.npy", npy("16, 16, 16", "<u2", many));
         put("wide", "wide.npy", npy("20, 20, 20", "|u1", wide));
         put("raw", "grains.raw", grains);
+        put("jittered", "jittered.npy", npy("12, 30, 30", "|u1", jittered_tube()));
         const std::string head = "NRRD0004\ntype: uint8\nencoding: raw\n", size = "dimension: 3\nsizes: 14 13 12\n";
         fs::create_directory(path("far"));
         put_text(path("far/grains.raw"), grains);
@@ -311,6 +326,7 @@ protected:
             {"open", "{grains} --smooth off --boundary open"},
             {"without_background", "{grains} --smooth off --no-background"},
             {"model_in_ras", "{ras} --smooth off"},
+            {"model_of_jittered", "{jittered} --reduce 60%"},
             {"model_of_points", "{points}"},
             {"model_of_drill", "{drill}"},
             {"model_of_intervals", "{data}/layers/intervals.csv --collars {data}/layers/collars.collars"}};

@@ -194,6 +194,9 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
     Json& verdicts = json["verdicts"] = Json::object();
     for (std::size_t i = 0; i < report.verdicts.size(); ++i) verdicts[kVerdictNames[i]] = report.verdicts[i];
     json["refreshes"] = report.refreshes;
+    json["sections_between"] = report.sections_between;
+    json["sections_moved"] = report.sections_moved;
+    json["largest_section_shift"] = report.largest_section_shift;
     json["samples_in_room"] = report.samples_in_room;
     json["denoise"] = denoise_json(report.denoise, labels);
     json["stopped"] = to_string(report.stopped);

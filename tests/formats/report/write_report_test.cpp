@@ -42,9 +42,10 @@ TEST(ReportJson, has_all_keys_and_no_others) {
                 testing::UnorderedElementsAre(
                     "quality_bound", "smoothed_lines", "floor", "initial_faces", "initial_vertices", "final_faces",
                     "final_vertices", "unit", "error_bound", "seconds", "stage_bytes", "peak_bytes", "peak_faces",
-                    "bytes_per_face", "verdicts", "refreshes", "samples_in_room", "denoise", "stopped", "smoothing",
-                    "volumes_preserved", "quality", "regions", "triple_lines", "region_pairs", "pinned_vertices",
-                    "quadruple_points_inside", "violations", "violation_counts"));
+                    "bytes_per_face", "verdicts", "refreshes", "samples_in_room", "sections_between", "sections_moved",
+                    "largest_section_shift", "denoise", "stopped", "smoothing", "volumes_preserved", "quality",
+                    "regions", "triple_lines", "region_pairs", "pinned_vertices", "quadruple_points_inside",
+                    "violations", "violation_counts"));
     EXPECT_THAT(keys_of(json["quality"]),
                 testing::ElementsAre("min", "mean", "histogram", "min_angle", "max_angle", "angles"));
     EXPECT_THAT(keys_of(json["regions"][0]), testing::ElementsAre("label", "euler", "components", "volume", "area"));
