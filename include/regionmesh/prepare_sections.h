@@ -24,6 +24,7 @@ struct PrepareOptions {
                                                // section to section (docs/explanation/between.md), else 0
     AlignKind align = AlignKind::kOff;
     std::uint32_t threads = 0;  // 0: one per core; the result does not depend on it
+    std::uint64_t memory = 0;   // bytes; where a section needs more, none are put between unless asked for; 0: no bound
 };
 
 /// How a section lies against its neighbours, in samples along the axes of the section; the angle is in radians, about

@@ -98,12 +98,15 @@ PreparedSections open_prepared(const Settings& settings, const std::vector<std::
     if (kind_of_input(inputs) != kVolumeInput) return {.reader = open_lattice(settings, inputs)};
     PrepareOptions options = settings.prepare;
     options.threads = settings.reconstruct.threads;
+    options.memory = settings.reconstruct.memory;
     const auto open = [&](SweepChoice sweep) {
         ReadOptions volume = settings.volume;
         volume.sweep = sweep;
         return open_sections({inputs.begin(), inputs.end()}, volume);
     };
-    return prepare_sections(open, settings.volume.sweep, options);
+    PreparedSections made = prepare_sections(open, settings.volume.sweep, options);
+    made.reader = as_plate(std::move(made.reader));
+    return made;
 }
 
 InputKind kind_of_input(const std::vector<std::string>& inputs) {

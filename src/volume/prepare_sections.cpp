@@ -15,7 +15,8 @@ namespace {
 
 using ReaderPointer = std::unique_ptr<SectionReader>;
 
-constexpr double kFar = 1.5;         // times the larger of the other spacings
+constexpr std::uint64_t kBytesPerSample = 64;  // of two sections and what lies between them
+constexpr double kFar = 1.5;                   // times the larger of the other spacings
 constexpr double kApartShare = 0.2;  // of the pairs of parts: with fewer, the surface fits better without help
 constexpr SweepChoice kChoices[] = {SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
 
@@ -61,6 +62,9 @@ std::uint32_t find_between(SectionReader& reader, const PrepareOptions& options,
     const VolumeInfo& info = reader.info();
     const std::uint32_t between = between_of(info);
     if (between == 0 || !info.can_rewind || far_axis(info.lattice) != info.sweep.axes[2]) return 0;
+    // Such a section is refused before it is read, or comes in blocks.
+    const std::uint64_t samples = std::uint64_t{reader.section_width()} * reader.section_height();
+    if (options.memory > 0 && samples > options.memory / kBytesPerSample) return 0;
     const PartPairs pairs = count_part_pairs(reader);
     made.pairs = pairs.overlapping + pairs.apart;
     made.pairs_apart = pairs.apart;

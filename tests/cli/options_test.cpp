@@ -109,9 +109,10 @@ TEST_F(CliOptions, the_short_help_has_what_most_runs_need_and_says_where_the_res
         EXPECT_EQ(ran.code, 0);
         EXPECT_EQ(ran.out, run(std::string(command.name) + " --help").out);
         EXPECT_THAT(ran.out, HasSubstr("--help-all lists all "));
-        for (const OptionSpec& option : option_table())
-            if ((option.commands & command.command) != 0 && !option.is_argument)
-                EXPECT_EQ(ran.out.find(option.flag() + ' ') != std::string::npos, option.is_basic) << option.name;
+        for (const OptionSpec& option : option_table()) {
+            if ((option.commands & command.command) == 0 || option.is_argument) continue;
+            EXPECT_EQ(ran.out.find(option.flag() + ' ') != std::string::npos, option.is_basic) << option.name;
+        }
     }
     EXPECT_EQ(run("help").out, run("--help").out);
     EXPECT_EQ(run("help nothing").code, 2);
