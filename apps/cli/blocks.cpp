@@ -301,7 +301,8 @@ int run_blocks(const Settings& settings) {
     line.clear();
     if (!tasks.is_first()) return kGood;
     warn_of_passes(settings);
-    if (!settings.prepare.between && far_axis(open_volume(settings, settings.inputs)->info().lattice))
+    const std::optional<VolumeInfo> info = info_of_volume(settings);
+    if (!settings.prepare.between && info && far_axis(info->lattice))
         say_more("sections: none put between others (--between auto): blocks are made of the sections as they are");
     print_summary(settings, report);
     const bool has_lost = settings.reconstruct.keep_samples && report.samples && report.samples->wrong > 0;
