@@ -100,7 +100,7 @@ class Mesh:
         self,
         labels: Any = None,
         *,
-        spacing: _Vector | None = None,
+        spacing: float | _Vector | None = None,
         origin: _Vector | None = None,
         direction: npt.ArrayLike | None = None,
         threads: _Int = 0,
@@ -111,7 +111,7 @@ class Mesh:
         like: Any = None,
         *,
         shape: Sequence[_Int] | None = None,
-        spacing: _Vector | None = None,
+        spacing: float | _Vector | None = None,
         origin: _Vector | None = None,
         direction: npt.ArrayLike | None = None,
         dtype: npt.DTypeLike | None = None,
@@ -122,6 +122,7 @@ class Mesh:
         path: _Path,
         *,
         per_region: bool = False,
+        ascii: bool = False,
         units: Literal["km", "m", "cm", "mm", "um", "nm", "ft", "in"] | None = None,
         precomputed: Literal["multi", "legacy"] | None = None,
         levels: _Int | None = None,
@@ -130,13 +131,14 @@ class Mesh:
     def to_vtk(self) -> Any: ...
     def to_pyvista(self) -> Any: ...
     def to_meshio(self) -> Any: ...
-    def to_trimesh(self, label: _Int) -> Any: ...
+    def plot(self) -> Any: ...
+    def to_trimesh(self, label: _Int = None) -> Any: ...
     def __len__(self) -> int: ...
 
 def reconstruct(
     labels: Any,
     *,
-    spacing: _Vector | None = None,
+    spacing: float | _Vector | None = None,
     origin: _Vector | None = None,
     direction: npt.ArrayLike | None = None,
     names: Mapping[int, str] | _Path | None = None,
@@ -177,6 +179,8 @@ def reconstruct(
     smooth: str | _Int | bool | None = None,
     smooth_filter: Literal["auto", "lattice", "taubin", "laplacian", "nifpms", "none"] | None = None,
     smooth_lambda: float | None = None,
+    between: str | None = None,
+    align: Literal["off", "translate", "rigid"] | None = None,
     room: float | None = None,
     denoise: str | None = None,
     specks: str | None = None,

@@ -131,7 +131,7 @@ class Mesh:
     def report(self):
         """The report of the last step as a dict (keys: docs/reference/report.md). A loaded model is checked first."""
         if self._report is None:
-            self._report = json.loads(self._model.report or _core.check(self._model, 0, None, 0))
+            self._report = json.loads(self._model.report or _core.check(self._model, 0, None, []))
         return self._report
 
     @property

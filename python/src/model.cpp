@@ -18,6 +18,7 @@
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/select_sections.h"
 #include "regionmesh/voxelise.h"
+#include "regionmesh/write_ascii_stl.h"
 #include "regionmesh/write_report.h"
 #include "settings.h"
 

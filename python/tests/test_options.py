@@ -117,7 +117,7 @@ def test_a_wrong_value_raises_the_line_of_the_program(two_boxes, options, line):
     "place, error",
     [
         ({"spacing": (1, 2)}, ValueError),
-        ({"spacing": 1}, TypeError),
+        ({"spacing": "1"}, TypeError),
         ({"spacing": (1, 0, 1)}, ValueError),
         ({"spacing": (1, -2, 1)}, ValueError),
         ({"spacing": (1, float("nan"), 1)}, ValueError),

@@ -19,7 +19,7 @@ def test_every_row_of_faces_names_a_point(mesh):
 
 
 def test_points_are_in_the_order_x_y_z(two_boxes):
-    mesh = regionmesh.reconstruct(two_boxes, smooth="off")
+    mesh = regionmesh.reconstruct(two_boxes, smooth="off", decimate=False)
     np.testing.assert_allclose(mesh.bounds, [[1.5, 2.5, 1.5], [7.5, 8.5, 10.5]])
 
 
@@ -36,7 +36,7 @@ def test_direction_turns_the_points(two_boxes):
 
 
 def test_reduce_removes_faces(grains):
-    full = regionmesh.reconstruct(grains, background=None)
+    full = regionmesh.reconstruct(grains, background=None, decimate=False)
     half = regionmesh.reconstruct(grains, background=None, reduce=0.5)
     assert len(half) <= len(full) / 2 + 1
     assert half.certified and half.report["stopped"] == "target"

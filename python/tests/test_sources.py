@@ -617,12 +617,12 @@ def _the_smaller_of_two_sections(labels):
 )
 def test_arrays_and_sections_are_chosen_from_as_files_are(two_boxes, tmp_path, options, same):
     np.save(tmp_path / "v.npy", two_boxes)
-    direct = regionmesh.reconstruct(two_boxes, **options)
+    direct = regionmesh.reconstruct(two_boxes, decimate=False, **options)
     for labels in (tmp_path / "v.npy", list(two_boxes), (section for section in two_boxes)):
-        other = regionmesh.reconstruct(labels, **options)
+        other = regionmesh.reconstruct(labels, decimate=False, **options)
         np.testing.assert_array_equal(direct.points, other.points)
     part = same(two_boxes)
-    assert direct.report["regions"] and len(direct.faces) == len(regionmesh.reconstruct(part).faces)
+    assert direct.report["regions"] and len(direct.faces) == len(regionmesh.reconstruct(part, decimate=False).faces)
     np.testing.assert_array_equal(direct.voxelise(), part)
 
 
@@ -631,7 +631,7 @@ def test_small_regions_are_given_away(two_boxes):
     labels[12, 10, 8] = 9
     assert 9 in regionmesh.reconstruct(labels).regions["label"]
     assert 9 not in regionmesh.reconstruct(labels, min_region=2).regions["label"]
-    with pytest.raises(ValueError, match="min-region"):
+    with pytest.raises(ValueError, match="min_region"):
         regionmesh.reconstruct((section for section in labels), sections=len(labels), min_region=2)
 
 
