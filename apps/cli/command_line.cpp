@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "blocks.h"
 #include "config_file.h"
@@ -77,6 +78,18 @@ void say_confined(const std::optional<SandboxState>& state) {
 
 }  // namespace
 
+/// The options that the short help leaves out, by name, in lines; empty where there are none.
+std::string other_options(const CommandSpec& command) {
+    constexpr std::size_t kWidth = 110;
+    std::string text, line;
+    for (const OptionSpec& option : option_table()) {
+        if ((option.commands & command.command) == 0 || option.is_argument || option.is_basic) continue;
+        if (line.size() + option.flag().size() > kWidth) text += std::exchange(line, "") + ",\n";
+        line += (line.empty() ? "" : ", ") + option.flag();
+    }
+    return line.empty() ? text : "Others: " + text + line + ".\n";
+}
+
 void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Settings&), const Typed& typed,
                  Action& action) {
     const auto all = std::make_shared<std::vector<std::unique_ptr<Texts>>>();
@@ -84,7 +97,7 @@ void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Set
     const auto has = [&](const OptionSpec& spec) { return (spec.commands & command.command) != 0; };
     std::string more;
     if (!typed.wants_all)
-        more = "regionmesh " + std::string(command.name) + " --help-all lists all " +
+        more = other_options(command) + "regionmesh " + std::string(command.name) + " --help-all lists all " +
                std::to_string(std::ranges::count_if(option_table(), has)) + " options.\n";
     subcommand.footer(more + "Example: " + std::string(command.example) + '\n' + kUnits);
     for (const OptionSpec& spec : option_table()) {
