@@ -119,6 +119,30 @@ TEST(Architecture, includes_follow_the_table) {
     EXPECT_GT(seen, 500) << "this test looks in the wrong place";
 }
 
+/// The rooms that the build makes regionmesh::core of.
+Names rooms_of_core() {
+    static const std::regex list(R"re(add_room_library\(core ([^)]*)\))re");
+    std::ifstream stream(kRoot / "CMakeLists.txt");
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    std::smatch match;
+    return std::regex_search(text, match, list) ? words_of(match[1]) : Names{};
+}
+
+TEST(Architecture, the_core_includes_no_library_of_files) {
+    static const std::regex library(R"re(^\s*#\s*include\s*<((?!oneapi/|CGAL/|sys/|linux/|sanitizer/)[^>]*[/.][^>]*)>)re");
+    const Names of_the_system{"emmintrin.h", "fcntl.h", "link.h", "malloc.h", "unistd.h"};
+    const Names core = rooms_of_core();
+    EXPECT_GT(core.size(), 10u) << "this test looks in the wrong place";
+    for (const std::string& room : core)
+        for_sources(kLibrary / room, [&](const fs::path& file) {
+            std::ifstream stream(file);
+            std::smatch match;
+            for (std::string line; std::getline(stream, line);)
+                EXPECT_TRUE(!std::regex_search(line, match, library) || of_the_system.contains(match[1]))
+                    << file.string() << ": " << line;
+        });
+}
+
 /// Depth first, down the arrows.
 bool leads_to(const std::string& from, const std::string& to, Names& seen) {
     for (const std::string& next : kRooms.may_include.at(from))

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -25,9 +23,8 @@ public:
         info_.can_sweep = {};
         info_.can_sweep[static_cast<std::size_t>(info_.sweep.axes[2])] = true;
         info_.held_bytes += section_.size() * sizeof(InputLabel);
-        add_warning(info_.warning, fmt::format("it has one sample along {}, and is repeated: the model is a plate, one "
-                                               "spacing thick",
-                                               axes));
+        add_warning(info_.warning,
+                    "it has one sample along " + axes + ", and is repeated: the model is a plate, one spacing thick");
     }
 
     const VolumeInfo& info() const override { return info_; }
