@@ -33,10 +33,11 @@ std::unique_ptr<SectionReader> open_modelled(const Settings& given, const MeshFi
     return modelled_sections(open_prepared_volume(settings, settings.sections).reader, settings.reconstruct);
 }
 
-void print_findings(const std::string& name, const CheckReport& report) {
+void print_findings(const std::string& name, const CheckReport& report, bool is_verbose) {
     say("{}: {}, {} with an interface, {} inside, lowest quality {:.3f}, mean {:.3f}", printable(name),
         counted(report.regions.size(), "region"), counted(report.region_pairs, "pair"),
         counted(report.quadruple_points_inside, "quadruple point"), report.quality.min, report.quality.mean);
+    print_shapes(report, is_verbose);
     if (report.regions.empty()) say("it has no regions: nothing was checked");
     print_violations(report, kListed);
     if (report.violation_count() == 0) say("no violations");
@@ -164,7 +165,7 @@ int check_folder(const Settings& given) {
         write_text(settings.json,
                    check_json(report, file.labels, file.names, samples ? &*samples : nullptr, file.coordinates.metres),
                    settings.writing);
-    print_findings(path, report);
+    print_findings(path, report, settings.verbose);
     if (samples) say("{}", samples_text(*samples, settings.reconstruct.room > 0));
     return exit_code(report);
 }
@@ -208,7 +209,7 @@ int run_check(const Settings& given) {
         write_page(settings.html, {page_model(path, model)},
                    page_options(kCheck, settings, json, options.oracle.has_value()), files);
     files.commit();
-    print_findings(path, report);
+    print_findings(path, report, settings.verbose);
     if (samples) say("{}", samples_text(*samples, settings.reconstruct.room > 0));
     return exit_code(report);
 }

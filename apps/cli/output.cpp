@@ -131,8 +131,8 @@ std::string counted(std::uint64_t count, const std::string& noun) {
 void print_remeshed(const Report& report) {
     if (!report.remeshed) return;
     const EdgeLengths &before = report.remeshed->before, &after = report.remeshed->after;
-    say("edges: {:.1f} % -> {:.1f} % from {} to {} of --edge-length, mean {:.3g} -> {:.3g}", 100 * before.share(),
-        100 * after.share(), kLeastOfLength, kMostOfLength, before.mean, after.mean);
+    say("edges: {:.1f} % -> {:.1f} % from {} to {} of {:.3g}, mean {:.3g} -> {:.3g}", 100 * before.share(),
+        100 * after.share(), kLeastOfLength, kMostOfLength, report.remeshed->edge_length, before.mean, after.mean);
 }
 
 void print_smoothed_lines(const Report& report) {
@@ -155,6 +155,40 @@ void print_improved(const Report& report) {
         "degrees, {} -> {} faces below --min-quality",
         before.min_quality, after.min_quality, before.mean_quality, after.mean_quality, before.min_angle,
         before.max_angle, after.min_angle, after.max_angle, before.faces_below, after.faces_below);
+}
+
+namespace {
+
+/// "1.5:120 2:33": where each bin that is not empty begins, and its count.
+template <std::size_t kBins>
+std::string bins_text(double first, double width, const std::array<std::uint64_t, kBins>& counts) {
+    std::string text;
+    for (std::size_t n = 0; n < kBins; ++n)
+        if (counts[n] > 0) text += fmt::format(" {:.3g}:{}", first + width * static_cast<double>(n), counts[n]);
+    return text;
+}
+
+template <std::size_t kBins>
+std::string bins_text(const Histogram<kBins>& histogram) {
+    return bins_text(histogram.first, histogram.width, histogram.counts);
+}
+
+}  // namespace
+
+void print_shapes(const CheckReport& report, bool all) {
+    if (!report.shapes || report.shapes->unit == 0) return;
+    const ShapeReport& shapes = *report.shapes;
+    say("shapes: angles {:.2f} to {:.2f} degrees, edges {:.3g} to {:.3g}, at most {:.1f} times as long as another at a "
+        "vertex, at most {} of them; least angle between faces {:.3f} degrees",
+        report.quality.min_angle, report.quality.max_angle, shapes.shortest_edge, shapes.longest_edge,
+        shapes.largest_ratio, shapes.largest_valence, shapes.least_dihedral);
+    if (!all) return;
+    say("quality:{}", bins_text(0, 0.01, report.quality.histogram));
+    say("angles:{}", bins_text(0, 10, report.quality.angle_histogram));
+    say("angles between faces:{}", bins_text(shapes.dihedrals));
+    say("edges at a vertex:{}", bins_text(shapes.valences));
+    say("edges, in units of {:.4g}:{}", shapes.unit, bins_text(shapes.lengths));
+    say("longest over shortest edge at a vertex:{}", bins_text(shapes.ratios));
 }
 
 void print_violations(const CheckReport& report, int listed) {

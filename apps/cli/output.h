@@ -79,6 +79,9 @@ void print_floor(const Report& report);
 /// Prints the lengths of edges before and after they were brought near a wanted one, if they were.
 void print_remeshed(const Report& report);
 
+/// Prints the shapes of edges and vertices: the extremes, and histograms where `all`.
+void print_shapes(const CheckReport& report, bool all);
+
 /// Prints the shape of the faces before and after they were improved, if they were.
 void print_improved(const Report& report);
 

@@ -12,6 +12,7 @@
 
 #include "regionmesh/label_oracle.h"
 #include "regionmesh/mesh.h"
+#include "regionmesh/shapes.h"
 
 namespace regionmesh {
 
@@ -93,6 +94,7 @@ struct CheckReport {
     std::vector<Violation> violations;                        // violations, at most CheckOptions::listed of each kind
     std::vector<RegionReport> regions;                        // one per dense label; background left out
     QualityReport quality;
+    std::optional<ShapeReport> shapes;  // none of a model in parts
     LineReport lines;
     std::uint64_t quadruple_points_inside = 0;
     std::uint64_t region_pairs = 0;

@@ -38,6 +38,7 @@ struct Settings {
     ReadMeshOptions surface;
     bool hull = false;
 
+    std::size_t purpose = 0;                        // number of the word of --for
     ReconstructOptions reconstruct{.denoise = {}};  // the other commands copy from it what they need
     std::optional<double> scale;                    // unit of nifpms in smooth; none: the mean edge length
     std::uint64_t samples = CompareOptions{}.samples;

@@ -41,17 +41,17 @@ struct ReconstructOptions {
     double perturbation = 1e-7;                         // of costs: share of scale^4, hashed from the edge (P 4.5)
     PlacementKind placement = PlacementKind::kQuadric;  // where collapses put merged vertices
     bool keep_samples = true;                           // of sections: decimation carries no sample into another region
-    std::optional<double> edge_length = {};             // a pass that brings all edges near this length (remesh.h)
-    bool smooth_lines = false;                          // a pass that smooths lines of three regions
-    bool improve = false;                               // a last pass that makes faces better, for finite elements
-    bool preserve_volume = false;           // finally give each region its volume before smoothing and decimation
-    double free_error = 0;                  // without a target or a largest error: faces go that decimation can spare
-                                            // within this distance, a length; 0: none. No promise: what follows, such
-                                            // as raise_floor(), may go farther
-    bool decimate = true;                   // false: no decimation, even with a target
-    bool cap = true;                        // --boundary cap; false: open
-    std::vector<InputLabel> background{0};  // empty space: its faces with the exterior are not made
-    std::uint64_t memory = kDefaultMemory;  // bytes that the work is planned for (docs/explanation/memory.md)
+    std::optional<double> edge_length = {};  // a pass that brings all edges near this length; 0: RemeshOptions
+    bool smooth_lines = false;               // a pass that smooths lines of three regions
+    bool improve = false;                    // a last pass that makes faces better, for finite elements
+    bool preserve_volume = false;            // finally give each region its volume before smoothing and decimation
+    double free_error = 0;                   // without a target or a largest error: faces go that decimation can spare
+                                             // within this distance, a length; 0: none. No promise: what follows, such
+                                             // as raise_floor(), may go farther
+    bool decimate = true;                    // false: no decimation, even with a target
+    bool cap = true;                         // --boundary cap; false: open
+    std::vector<InputLabel> background{0};   // empty space: its faces with the exterior are not made
+    std::uint64_t memory = kDefaultMemory;   // bytes that the work is planned for (docs/explanation/memory.md)
     std::optional<std::uint64_t> face_budget = {};  // most faces held at once, instead of deriving it from memory
     std::uint32_t threads = 0;                      // 0: one per core. The result does not depend on it
     std::uint32_t strips_per_chunk = 1;  // strips meshed before they are merged; decimation in tiles sets its own

@@ -18,6 +18,7 @@
 #include "regionmesh/remesh.h"
 #include "regionmesh/report.h"
 #include "regionmesh/select_sections.h"
+#include "regionmesh/shapes.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
 #include "regionmesh/smooth_lines.h"

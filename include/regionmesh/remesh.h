@@ -11,7 +11,7 @@ namespace regionmesh {
 
 struct RemeshOptions {
     Promises promises = {};     // without samples and a largest error: the bound rises by kRemeshError of the length
-    double edge_length = 0;     // wanted, without scale_z; above 0
+    double edge_length = 0;     // wanted, without scale_z; 0: that of equilateral faces of the same number
     std::uint32_t sweeps = 10;  // most sweeps of splits, collapses, flips and moves
     std::function<void()> on_progress = {};  // called now and then, on the calling thread
 };
@@ -34,6 +34,7 @@ struct EdgeLengths {
 struct RemeshResult {
     std::uint64_t splits = 0, collapses = 0, flips = 0, moves = 0;
     std::uint32_t sweeps = 0;
+    double edge_length = 0;  // wanted
     EdgeLengths before, after;
     double error_bound = 0;  // of simplify() and this together (SimplifyResult)
 };

@@ -21,7 +21,9 @@ _FALSE_AND_TRUE = {"smooth": ("off", "normal")}
 
 
 def _keyword(name):
-    """`--no-keep-samples` is the keyword keep_samples, with the opposite meaning."""
+    """`--no-keep-samples` is the keyword keep_samples, with the opposite meaning; `for` is a word of Python."""
+    if name == "for":
+        return "purpose"
     if name.startswith("no-") and name != "no-background":
         return name[3:].replace("-", "_")
     return name.replace("-", "_")
@@ -59,7 +61,7 @@ def _whole(name, value):
 
 
 def _number(name, value):
-    if name == "scale_z" and isinstance(value, str) and value == "auto":
+    if name in ("scale_z", "edge_length") and isinstance(value, str) and value == "auto":
         return value
     if isinstance(value, (bool, str)):
         raise TypeError(f"{name}={value!r}: not a number")

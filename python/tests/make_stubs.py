@@ -48,6 +48,7 @@ _OF_NAME = {
     "dtype": "npt.DTypeLike | None", "outside": "_Int", "per_region": "bool", "labels": "Any",
     "keep_samples": "bool", "min_quality": "float", "space": 'Literal["ras", "lps"] | None', "units": 'Literal["km", "m", "cm", "mm", "um", "nm", "ft", "in"] | None',
     "downsample": "str | _Int | None", "scale_z": 'float | Literal["auto"] | None',
+    "edge_length": 'float | Literal["auto"] | None',
     "precomputed": 'Literal["multi", "legacy"] | None', "levels": "_Int | None", "sharded": "bool",
 }  # fmt: skip
 _RETURNS = {

@@ -66,6 +66,7 @@ CheckReport check(const Mesh& mesh, const CheckOptions& options) {
     check_volumes(options, totals.regions, report, findings);
     report.quadruple_points_inside = totals.quadruple_points_inside;
     report.lines = totals.lines.report();
+    report.shapes = measure_shapes(mesh, options.threads);
     check_places(mesh, options, findings);
     std::optional<SortedFaceTree> tree;
     if (options.crossing) {

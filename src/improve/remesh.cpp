@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/option_range.h"
+#include "base/triangle.h"
 #include "improve/length_steps.h"
 #include "judge/error_bound.h"
 #include "mesh/strata.h"
@@ -27,6 +28,18 @@ constexpr int kMostSplitRounds = 40;
 
 /// Sweeps end where they make fewer steps than this share of the faces.
 constexpr double kFewSteps = 1e-3;
+
+/// Of equilateral faces, as many as the mesh has, of the same area in all.
+double length_of_equal_faces(const Mesh& mesh, double scale_z) {
+    double area = 0;
+    for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
+        if (!mesh.is_alive(FaceId{f})) continue;
+        auto p = mesh.corners(FaceId{f});
+        for (Vec3& corner : p) corner.z /= scale_z;
+        area += 0.5 * length(area_vector(p[0], p[1], p[2]));
+    }
+    return std::sqrt(4 / std::sqrt(3.0) * area / std::max(mesh.face_count(), 1u));
+}
 
 EdgeLengths lengths_of(const Mesh& mesh, const RemeshOptions& options) {
     EdgeLengths lengths;
@@ -181,11 +194,15 @@ private:
 
 }  // namespace
 
-RemeshResult remesh(Mesh& mesh, const RemeshOptions& options) {
-    require_in_range(options.promises);
-    require_number("edge_length", options.edge_length, kEdgeLengths);
+RemeshResult remesh(Mesh& mesh, const RemeshOptions& given) {
+    require_in_range(given.promises);
+    if (given.edge_length != 0) require_number("edge_length", given.edge_length, kEdgeLengths);
     require_along_axes(mesh);
+    RemeshOptions options = given;
+    if (options.edge_length == 0) options.edge_length = length_of_equal_faces(mesh, options.promises.scale_z);
     RemeshResult result;
+    if (mesh.face_count() == 0) return result;
+    result.edge_length = options.edge_length;
     result.before = lengths_of(mesh, options);
     RemeshLoop(mesh, options).run(result);
     mesh.compact();

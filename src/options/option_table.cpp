@@ -1,5 +1,6 @@
 // The table of options: one row an option, in *_rows.cpp.
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "options/deferred_options.h"
@@ -15,6 +16,24 @@ Rows all_rows() {
                               smoothing_rows, validity_rows, comparison_rows, output_rows, run_rows})
         std::ranges::move(group(), std::back_inserter(rows));
     return rows;
+}
+
+/// The options that a word of --for stands for, by its number.
+const std::array<OptionValues, 4> kPurposes{{
+    {},
+    {{"reduce", "90%"}, {"edge-length", "auto"}, {"improve", "true"}},
+    {{"reduce", "80%"}, {"smooth-lines", "true"}, {"preserve-volume", "true"}},
+    {{"reduce", "95%"}, {"no-keep-samples", "true"}},
+}};
+
+/// Sets those of them that are not given. A target that is given stands for any other.
+void apply_purpose(Settings& settings) {
+    const auto is_given = [&](const char* option) { return given_text(settings, option) != nullptr; };
+    const bool has_own_target =
+        std::ranges::any_of(std::array{"reduce", "target-faces", "max-error", "no-decimate"}, is_given);
+    for (const auto& [name, text] : kPurposes[settings.purpose])
+        if (!given_text(settings, name) && !(name == "reduce" && has_own_target))
+            find_option(name)->set(settings, text);
 }
 
 }  // namespace
@@ -69,6 +88,7 @@ void apply_options(Settings& settings, const OptionValues& values) {
                 if (!is_off) settings.given.emplace_back(name, text);
             }
     require_consistent(settings);
+    apply_purpose(settings);
 }
 
 }  // namespace regionmesh

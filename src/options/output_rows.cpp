@@ -238,9 +238,10 @@ Rows run_rows() {
                 .commands = kWriters | kCheck | kConvert | kCompare | kVoxelise | kView},
                [](Settings& s) { return &s.quiet; }),
         option({.name = "verbose",
-                .help = "print more: what smoothing did, why edges stayed, seconds by stage",
+                .help = "print more: what smoothing did, why edges stayed, seconds by stage; histograms of the shapes "
+                        "of faces and edges",
                 .group = kGroup,
-                .commands = kReconstruct},
+                .commands = kReconstruct | kCheck},
                [](Settings& s) { return &s.verbose; }),
         file_option({.name = "log",
                      .help = "text file to write during the run: the command, the stages and all messages, with times",

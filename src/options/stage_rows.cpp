@@ -59,6 +59,14 @@ void choose_filter(Settings& settings, std::size_t word) {
 Rows decimation_rows() {
     constexpr std::string_view kGroup = "Decimation";
     return {
+        word_option(
+            {.name = "for",
+             .help = "a set of options, for what nothing else is given. fe, finite elements: --reduce 90% "
+                     "--edge-length auto --improve; print: --reduce 80% --smooth-lines --preserve-volume; view: "
+                     "--reduce 95% --no-keep-samples",
+             .group = kGroup,
+             .commands = kReconstruct},
+            {"any", "fe", "print", "view"}, [](Settings& s, std::size_t word) { s.purpose = word; }),
         option({.name = "target-faces",
                 .is_basic = true,
                 .help = "stop when at most this number of faces is left",
@@ -224,16 +232,21 @@ Rows validity_rows() {
              .group = kGroup,
              .commands = kWriters},
             [](Settings& s) { return &s.reconstruct.promises.min_quality; }, kQualities),
-        option(
+        special_option(
             {.name = "edge-length",
              .is_basic = true,
              .help =
                  "after decimation, split, collapse and flip edges and move vertices until the edges have about this "
-                 "length, faces nearly equilateral",
+                 "length, faces nearly equilateral; auto: that of as many faces as decimation leaves",
              .group = kGroup,
              .commands = kFinishers,
-             .unit = "length"},
-            [](Settings& s) { return &s.reconstruct.edge_length; }, kLengths),
+             .unit = "length",
+             .value = "auto|NUMBER",
+             .range = kLengths.text()},
+            OptionKind::kNumber,
+            [](Settings& s, const std::string& flag, const std::string& text) {
+                s.reconstruct.edge_length = text == "auto" ? 0 : parse_number(flag, text, kLengths);
+            }),
         option({.name = "smooth-lines",
                 .help = "at the end, move the vertices of lines between three regions so that the lines turn less",
                 .group = kGroup,

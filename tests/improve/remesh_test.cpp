@@ -45,9 +45,18 @@ TEST(Remesh, keeps_the_largest_error) {
     EXPECT_LE(done.error_bound, 0.1 + 1e-6);
 }
 
+TEST(Remesh, takes_the_length_of_as_many_equilateral_faces_where_none_is_wanted) {
+    Mesh mesh = run(test::ball_volume({40, 40, 40}, 16), {.reduce = 0.8, .background = {}}).mesh;
+    const double before = mesh.face_count();
+    const RemeshResult done = remesh(mesh, {});
+    EXPECT_NEAR(done.edge_length, typical_edge(mesh), 0.1 * done.edge_length);
+    EXPECT_NEAR(mesh.face_count(), before, 0.15 * before);
+    EXPECT_GT(done.after.share(), 0.95);
+}
+
 TEST(Remesh, refuses_a_length_that_is_none) {
     Mesh mesh;
-    for (const double wanted : {0.0, -1.0, std::nan("")}) EXPECT_THROW(remesh(mesh, {.edge_length = wanted}), Error);
+    for (const double wanted : {-1.0, std::nan("")}) EXPECT_THROW(remesh(mesh, {.edge_length = wanted}), Error);
     EXPECT_EQ(remesh(mesh, {.edge_length = 1}).after.edges, 0u);
 }
 

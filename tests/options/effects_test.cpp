@@ -104,6 +104,7 @@ const std::vector<Effect> kEffects{
      {.source = "{wide}", .model = "{without_background}", .more = "--no-background"}},
 
     // Decimation
+    {"for", "fe", Part::kFiles, kReconstruct},
     {"target-faces", "300", Part::kFiles, kReconstruct},
     {"target-faces", "300", Part::kFiles, kDecimate, {.more = "--improve"}},
     {"reduce", "70%", Part::kFiles, kReconstruct},

@@ -111,6 +111,21 @@ TEST(OptionTable, values_reach_their_members) {
     EXPECT_THAT(settings.inputs, ElementsAre("a.png", "b.png"));
 }
 
+TEST(OptionTable, a_purpose_stands_for_options_that_are_not_given) {
+    const ReconstructOptions fe = applied({{"for", "fe"}}).reconstruct;
+    EXPECT_EQ(fe.reduce, 0.9);
+    EXPECT_EQ(fe.edge_length, 0.0);
+    EXPECT_TRUE(fe.improve);
+    const ReconstructOptions own = applied({{"edge-length", "3"}, {"target-faces", "500"}, {"for", "fe"}}).reconstruct;
+    EXPECT_EQ(own.edge_length, 3.0);
+    EXPECT_EQ(own.target_faces, 500u);
+    EXPECT_FALSE(own.reduce) << "one target is enough";
+    EXPECT_FALSE(applied({{"for", "fe"}, {"max-error", "0.5mm"}}).reconstruct.reduce);
+    EXPECT_TRUE(applied({{"for", "print"}}).reconstruct.preserve_volume);
+    EXPECT_FALSE(applied({{"for", "view"}}).reconstruct.keep_samples);
+    EXPECT_THAT(refusal({{"for", "fun"}}), HasSubstr("--for fun"));
+}
+
 TEST(OptionTable, the_order_of_the_values_does_not_matter) {
     for (const OptionValues& values : {OptionValues{{"smooth-filter", "taubin"}, {"smooth", "5"}},
                                        OptionValues{{"smooth", "5"}, {"smooth-filter", "taubin"}}}) {

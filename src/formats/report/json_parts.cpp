@@ -8,7 +8,25 @@ namespace {
 constexpr double kQualityBin = 0.01;  // widths of the bins of QualityReport
 constexpr double kAngleBin = 10;
 
+template <std::size_t kBins>
+Json histogram_json(const Histogram<kBins>& histogram) {
+    return {{"first", histogram.first}, {"bin_width", histogram.width}, {"counts", histogram.counts}};
+}
+
 }  // namespace
+
+Json shapes_json(const ShapeReport& shapes) {
+    return {{"unit", shapes.unit},
+            {"shortest_edge", shapes.shortest_edge},
+            {"longest_edge", shapes.longest_edge},
+            {"least_dihedral", shapes.least_dihedral},
+            {"largest_ratio", shapes.largest_ratio},
+            {"largest_valence", shapes.largest_valence},
+            {"edge_lengths", histogram_json(shapes.lengths)},
+            {"dihedrals", histogram_json(shapes.dihedrals)},
+            {"ratios", histogram_json(shapes.ratios)},
+            {"valences", histogram_json(shapes.valences)}};
+}
 
 Json quality_json(const QualityReport& quality) {
     return {{"min", quality.min},

@@ -14,6 +14,7 @@ namespace regionmesh {
 using Json = nlohmann::ordered_json;
 
 Json quality_json(const QualityReport& quality);
+Json shapes_json(const ShapeReport& shapes);
 
 /// A number in the signedness of the input.
 Json label_json(InputLabel label, const LabelTable& labels);

@@ -95,7 +95,8 @@ Json lengths_json(const EdgeLengths& lengths) {
 }
 
 Json remeshed_json(const RemeshResult& done) {
-    return {{"splits", done.splits},
+    return {{"edge_length", done.edge_length},
+            {"splits", done.splits},
             {"collapses", done.collapses},
             {"flips", done.flips},
             {"moves", done.moves},
@@ -134,6 +135,7 @@ Json violations_json(const std::vector<Violation>& violations, const LabelTable&
 void put_check(Json& json, const CheckReport& report, const LabelTable& labels, const LabelNames& names,
                const Report* run = nullptr) {
     json["quality"] = quality_json(report.quality);
+    if (report.shapes) json["shapes"] = shapes_json(*report.shapes);
     json["regions"] = regions_json(report.regions, labels, names, run);
     json["triple_lines"] = {{"edges", report.lines.edges},
                             {"length", report.lines.length},
