@@ -82,6 +82,7 @@ constexpr Format kFormats[] = {
     {.name = "NPZ", .extensions = {".npz"}, .open_sections = open_npz},
     {.name = "Amira", .extensions = {".am"}, .open_sections = open_amira},
     {.name = "MRC", .extensions = {".mrc", ".map", ".rec", ".ccp4", ".mrc.gz", ".map.gz"}, .open_sections = open_mrc},
+    {.name = "contours", .extensions = {".json"}, .open_sections = open_contours},
     {.name = "VTK", .extensions = {".vtk"}, .open_sections = open_legacy_vtk},
     {.name = "FreeSurfer", .extensions = {".mgz", ".mgh"}, .open_sections = open_mgh},
     {.name = "TIFF",

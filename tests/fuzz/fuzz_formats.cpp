@@ -221,6 +221,7 @@ std::span<const Format> formats() {
             Format{"raw", "nrrd", {".raw"}, raw}, Format{"nrrd", "nrrd", {".nrrd", ".nhdr"}, volume},
             Format{"meta", "meta", {".mha", ".mhd"}, volume}, Format{"vti", "vti", {".vti"}, volume},
             Format{"more", "more", {".npz", ".mrc", ".vtk", ".am"}, volume},
+            Format{"contours", "contours", {".csv", ".json"}, volume},
             Format{"voxels", "reports", {".vtu"}, volume}, Format{"inr", "inr", {".inr", ".gz"}, volume},
             Format{"mgh", "mgh", {".mgh", ".mgz"}, volume},
             Format{"names", "names", {".txt", ".csv", ".tsv", ".label", ".ctbl", ".xml"}, names},
