@@ -80,8 +80,9 @@ formats::DatasetPath formats::split_dataset(const fs::path& path) {
     if (fs::exists(path, ignored)) return {path, {}};
     for (std::size_t colon = text.find(':'); colon != std::string::npos; colon = text.find(':', colon + 1)) {
         const fs::path file = text.substr(0, colon);
-        const Format* format = find_format(file);
-        if (!format || !format->has_datasets || !fs::is_regular_file(file, ignored)) continue;
+        if (!fs::is_regular_file(file, ignored)) continue;
+        const Format* format = find_format(InputFile(file));
+        if (!format || !format->has_datasets) continue;
         const std::string inside = text.substr(colon + 1);
         return {file, inside.starts_with('/') ? inside : "/" + inside};
     }
