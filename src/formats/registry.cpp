@@ -78,7 +78,7 @@ constexpr Format kFormats[] = {
     {.name = "NIfTI pair", .extensions = {".hdr", ".img", ".hdr.gz", ".img.gz"}, .open_sections = open_nifti},
     {.name = "NRRD", .extensions = {".nrrd", ".nhdr"}, .open_sections = open_nrrd},
     {.name = "MetaImage", .extensions = {".mha", ".mhd"}, .open_sections = open_meta_image},
-    {.name = "VTI", .extensions = {".vti"}, .open_sections = open_vti},
+    {.name = "VTI", .extensions = {".vti"}, .open_sections = open_vti, .has_datasets = true},
     {.name = "INR", .extensions = {".inr", ".inr.gz"}, .open_sections = open_inr},
     {.name = "NPZ", .extensions = {".npz"}, .open_sections = open_npz},
     {.name = "Amira", .extensions = {".am"}, .open_sections = open_amira},

@@ -230,11 +230,11 @@ Rows tetrahedra_rows() {
                            s.reconstruct.scale_z = s.tetrahedra.scale_z = scale;
                        }),
         option({.name = "array",
-                .help = "meshes: name of the array of labels",
+                .help = "volumes and meshes: name of the array of labels in a .vti, HDF5 or DREAM.3D file or a mesh",
                 .group = kGroup,
                 .commands = kVolumeCommands,
                 .value = "NAME",
-                .inputs = kMeshInput},
+                .inputs = kVolumeInput | kMeshInput},
                [](Settings& s) { return &s.tetrahedra.array; }),
         option({.name = "hull",
                 .help = "close regions on the hull of the points; the same as --boundary cap",

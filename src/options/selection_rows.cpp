@@ -15,7 +15,7 @@ Rows selection_rows() {
              .help = "volumes of grey values or shares: label 1 from V on, 0 below; with several values, the "
                      "number of those that a sample reaches",
              .group = kGroup,
-             .commands = kLatticeCommands,
+             .commands = kVolumeCommands,
              .value = "V[,V...]",
              .inputs = kVolumeInput},
             OptionKind::kText,
@@ -43,7 +43,7 @@ Rows selection_rows() {
              .help = "masks and segments: names or labels that win where regions overlap, the first over all "
                      "others; without it, the last in the file or in the list",
              .group = kGroup,
-             .commands = kLatticeCommands,
+             .commands = kVolumeCommands,
              .value = "NAMES",
              .inputs = kVolumeInput},
             OptionKind::kText,

@@ -19,8 +19,9 @@ protected:
     /// The files that the page names, from tests/data.
     void SetUp() override {
         fs::create_directory(path("root"));
-        for (const char* name : {"masks", "layers.seg.nrrd", "one_layer.vti", "v06.zarr", "damask.vti", "voxels.vtu",
-                                 "tetgen_ref.msh", "geol.csv", "loca.csv", "plain.vtp", "labels_4_17_255.npy"})
+        for (const char* name :
+             {"masks", "layers.seg.nrrd", "one_layer.vti", "two_arrays.vti", "v06.zarr", "damask.vti", "voxels.vtu",
+              "tetgen_ref.msh", "geol.csv", "loca.csv", "plain.vtp", "labels_4_17_255.npy"})
             link(std::string("reports/") + name, name);
         link("reports/float_labels.nii", "labels.nii");
         link("reports/masks/liver.nii.gz", "liver.nii.gz");

@@ -135,6 +135,18 @@ TEST_F(Reports, folder_of_masks_and_a_list_of_them_are_one_volume_named_by_files
     EXPECT_EQ(list.labels, turned);
 }
 
+TEST_F(Reports, one_of_several_arrays_is_chosen_by_its_name) {
+    const std::string file = report("two_arrays.vti").string();
+    EXPECT_THAT(refusal({file}), HasSubstr("several arrays of integers; choose one with --array NAME"));
+    EXPECT_EQ(read_volume({file + ":/phase"}).labels, std::vector<InputLabel>(512, 1));
+    EXPECT_EQ(read_volume({file + ":/material"}).labels, read_volume({report("damask.vti")}).labels);
+    EXPECT_THAT(refusal({file + ":/none"}), HasSubstr("has no array 'none' of single numbers; its arrays: material"));
+    Settings settings;
+    settings.tetrahedra.array = "phase";
+    EXPECT_EQ(pull(*open_lattice(settings, {file})), std::vector<InputLabel>(512, 1));
+    EXPECT_THROW(open_lattice(settings, {report("labels.npy").string()}), Error);
+}
+
 /// Two masks of 3 samples in a row that share the one in the middle.
 class Overlapping : public TemporaryFolder {
 protected:
