@@ -555,6 +555,7 @@ TEST_F(BlockProgram, refuses_what_blocks_do_not_have) {
     for (const auto& [options, said] : {std::pair("--html page.html", "--html: is for a model in one file"),
                                         std::pair("--preserve-volume", "--preserve-volume: needs the whole surface"),
                                         std::pair("--smooth-lines", "--smooth-lines: needs the whole surface"),
+                                        std::pair("--edge-length 2", "--edge-length: needs the whole surface"),
                                         std::pair("--smooth-filter taubin", "smoothed inside the lattice")}) {
         const Ran ran = run(grains("model") + ' ' + options);
         EXPECT_NE(ran.code, 0);
