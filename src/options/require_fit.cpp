@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "formats/array/volume_formats.h"
+#include "formats/contours/contours.h"
 #include "regionmesh/error.h"
 #include "regionmesh/options.h"
 #include "volume/chosen_sections.h"
@@ -112,7 +113,7 @@ PreparedSections open_prepared(const Settings& settings, const std::vector<std::
 InputKind kind_of_input(const std::vector<std::string>& inputs) {
     const auto found = std::ranges::find_if(inputs, [](const auto& input) { return holds_tetrahedra(input); });
     if (found == inputs.end()) return kVolumeInput;
-    if (inputs.size() == 1 && formats::holds_voxels(*found)) return kVolumeInput;
+    if (inputs.size() == 1 && (formats::holds_voxels(*found) || formats::holds_contours(*found))) return kVolumeInput;
     return is_mesh(*found) ? kMeshInput : kTableInput;
 }
 

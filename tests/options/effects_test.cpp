@@ -54,6 +54,10 @@ const std::vector<Effect> kEffects{
     {"sweep", "z", Part::kText, kInfo},
     {"spacing", "1,2,3"},
     {"layer", "1", Part::kAny, kAll, {.source = "{layers}"}},
+    {"threshold", "3"},
+    {"argmax", "", Part::kAny, kAll, {.source = "{layers}"}},
+    {"pitch", "1.5", Part::kAny, kAll, {.source = "{contours}"}},
+    {"priority", "liver", Part::kAny, kAll, {.source = "{data}/reports/masks"}},
     {"max-work", "5"},
     {"external-files", "", Part::kAny, kAll, {.source = "{header}"}},
     {"size", "12,13,14", Part::kAny, kAll, {.source = "{raw}", .more = "--type uint8"}},
@@ -309,6 +313,8 @@ protected:
                     points += std::to_string(1 + (x + y > 3) + (z > 1)) + '\n';
                 }
         put("points", "points.csv", "x,y,z,label\n" + points);
+        put("contours", "contours.csv",
+            "label,contour,z,x,y\na,1,0,0,0\na,1,0,9,0\na,1,0,9,9\na,1,0,0,9\na,1,2,0,0\na,1,2,9,0\na,1,2,9,9\n");
         put("columns", "columns.csv", "a,b,c,label\n" + points);
         std::string holes = "hole,x,y,surface,from,to,label\n";
         const int places[5][3] = {{0, 0, 3}, {6, 1, 4}, {1, 7, 5}, {6, 6, 6}, {3, 3, 5}};
