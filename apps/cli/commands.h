@@ -12,6 +12,7 @@ inline constexpr int kGood = 0, kBadInput = 1, kBadUsage = 2, kViolations = 3, k
 // is sound but regions are off the volumes that --preserve-volume asks for.
 int run_reconstruct(const Settings& settings);
 int run_decimate(const Settings& settings);
+int run_remesh(const Settings& settings);
 int run_smooth(const Settings& settings);
 int run_check(const Settings& settings);
 int run_convert(const Settings& settings);

@@ -12,6 +12,7 @@ namespace {
 void print_summary(const Settings& settings, const Report& report) {
     say("{}: {} faces (from {}), lowest quality {:.3f}, {}", output_text(settings), report.final_faces,
         report.initial_faces, report.check.quality.min, counted(report.check.violation_count(), "violation"));
+    print_remeshed(report);
     print_smoothed_lines(report);
     print_floor(report);
     print_improved(report);
@@ -21,9 +22,10 @@ void print_summary(const Settings& settings, const Report& report) {
 
 int run_decimate(const Settings& given) {
     const ReconstructOptions& asked = given.reconstruct;
-    if (!has_target(given) && !asked.improve && !asked.smooth_lines)
+    if (!has_target(given) && !asked.improve && !asked.smooth_lines && !asked.edge_length)
         throw Error(ErrorCode::kUsage,
-                    "decimate: no target; give --target-faces, --reduce, --max-error, --improve or --smooth-lines");
+                    "decimate: no target; give --target-faces, --reduce, --max-error, --edge-length, --improve or "
+                    "--smooth-lines");
     require_outputs(given);
     MeshFile file = read_model(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);

@@ -131,6 +131,8 @@ void add_commands(CLI::App& app, const Typed& typed, Action& action) {
                 return run_reconstruct;
             case kDecimate:
                 return run_decimate;
+            case kRemesh:
+                return run_remesh;
             case kSmooth:
                 return run_smooth;
             case kCheck:

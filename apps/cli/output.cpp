@@ -128,6 +128,13 @@ std::string counted(std::uint64_t count, const std::string& noun) {
     return grouped(count) + ' ' + (count == 1 ? noun : plural_of(noun));
 }
 
+void print_remeshed(const Report& report) {
+    if (!report.remeshed) return;
+    const EdgeLengths &before = report.remeshed->before, &after = report.remeshed->after;
+    say("edges: {:.1f} % -> {:.1f} % from {} to {} of --edge-length, mean {:.3g} -> {:.3g}", 100 * before.share(),
+        100 * after.share(), kLeastOfLength, kMostOfLength, before.mean, after.mean);
+}
+
 void print_smoothed_lines(const Report& report) {
     if (!report.smoothed_lines) return;
     say("lines: mean angle between edges {:.1f} -> {:.1f} degrees", report.smoothed_lines->turn_before,

@@ -76,6 +76,9 @@ void print_smoothed_lines(const Report& report);
 /// Prints what was done about faces below the bound on quality, if there were any.
 void print_floor(const Report& report);
 
+/// Prints the lengths of edges before and after they were brought near a wanted one, if they were.
+void print_remeshed(const Report& report);
+
 /// Prints the shape of the faces before and after they were improved, if they were.
 void print_improved(const Report& report);
 

@@ -48,7 +48,8 @@ PageOptions page_options(Command command, const Settings& settings, std::string 
     options.boundary_is_open = !settings.reconstruct.cap;
     options.min_quality = quality_bound;
     const double most = settings.reconstruct.promises.max_error;
-    if ((command == kReconstruct || command == kDecimate) && most < HUGE_VAL) options.max_error = most;
+    if ((command == kReconstruct || command == kDecimate || command == kRemesh) && most < HUGE_VAL)
+        options.max_error = most;
     options.preview_faces = settings.preview_faces;
     options.threads = settings.reconstruct.threads;
     return options;

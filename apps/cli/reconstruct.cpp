@@ -83,6 +83,7 @@ void print_summary(const Settings& settings, const Reconstruction& made, const s
     const Report& report = made.report;
     const CheckReport& check = report.check;
     print_details(report);
+    print_remeshed(report);
     print_smoothed_lines(report);
     print_floor(report);
     print_improved(report);

@@ -47,8 +47,21 @@ struct FloorResult {
     std::uint64_t collapses = 0, flips = 0, moves = 0, splits = 0;
     std::uint64_t below_before = 0, below_after = 0;  // faces
     double lowest_before = 0, lowest_after = 0;       // quality; 0 for a mesh without faces
+    double error_bound = 0;                           // of simplify() and this together (SimplifyResult)
     std::vector<Vec3> left = {};                      // middles of the first kMostLeft faces still below
     static constexpr std::size_t kMostLeft = 100;
+
+    /// This and what was done later as one.
+    void follow(const FloorResult& later) {
+        collapses += later.collapses;
+        flips += later.flips;
+        moves += later.moves;
+        splits += later.splits;
+        below_after = later.below_after;
+        lowest_after = later.lowest_after;
+        error_bound = later.error_bound;
+        left = later.left;
+    }
 };
 
 /// Raises the faces below the bound on quality (P 4.3): each gets every cure that the promises allow, a collapse of one

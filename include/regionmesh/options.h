@@ -87,6 +87,7 @@ enum Command : std::uint32_t {
     kInfo = 64,
     kVoxelise = 128,
     kView = 256,
+    kRemesh = 512,
 };
 
 /// Kinds of input as bits.

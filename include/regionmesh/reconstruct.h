@@ -26,9 +26,9 @@ namespace regionmesh {
 struct ReconstructOptions {
     std::optional<std::uint64_t> target_faces = {};  // decimate to this number of faces or fewer
     std::optional<double> reduce = {};               // or remove this share of the faces, 0 to 1
-    Promises promises = {};  // what decimation, smooth lines and improvement keep; smoothing keeps quality and
-                             // crossings. A largest error asks for decimation, too. Its scale, box and samples are set
-                             // from the run; where it has no bound on quality, decimation of sections, unless with
+    Promises promises = {};  // what decimation, remeshing, smooth lines and improvement keep; smoothing keeps quality
+                             // and crossings. A largest error asks for decimation, too. Its scale, box and samples are
+                             // set from the run; where it has no bound on quality, decimation of sections, unless with
                              // improve or preserve_volume, keeps usual_quality_bound (docs/explanation/decimate.md)
     double room = 0;  // of sections: samples nearer than this to the boundary of their region, in finest spacings, may
                       // change their label first, for noisy labels (docs/explanation/smoothing.md); at most 8; 0: none
@@ -41,6 +41,7 @@ struct ReconstructOptions {
     double perturbation = 1e-7;                         // of costs: share of scale^4, hashed from the edge (P 4.5)
     PlacementKind placement = PlacementKind::kQuadric;  // where collapses put merged vertices
     bool keep_samples = true;                           // of sections: decimation carries no sample into another region
+    std::optional<double> edge_length = {};             // a pass that brings all edges near this length (remesh.h)
     bool smooth_lines = false;                          // a pass that smooths lines of three regions
     bool improve = false;                               // a last pass that makes faces better, for finite elements
     bool preserve_volume = false;           // finally give each region its volume before smoothing and decimation

@@ -15,6 +15,7 @@
 #include "regionmesh/prepare_sections.h"
 #include "regionmesh/process.h"
 #include "regionmesh/reconstruct.h"
+#include "regionmesh/remesh.h"
 #include "regionmesh/report.h"
 #include "regionmesh/select_sections.h"
 #include "regionmesh/simplify.h"

@@ -10,6 +10,7 @@
 #include "regionmesh/check.h"
 #include "regionmesh/denoise.h"
 #include "regionmesh/improve.h"
+#include "regionmesh/remesh.h"
 #include "regionmesh/section_reader.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
@@ -35,8 +36,9 @@ struct Report {
     VerdictCounts verdicts{};
     std::uint64_t refreshes = 0;
     StopReason stopped = StopReason::kNoneAsked;
-    std::optional<double> quality_bound;  // of faces that decimation changes, with z scaled; none without decimation
-    std::optional<FloorResult> floor;     // what was done about faces below that; none without decimation
+    std::optional<double> quality_bound;   // of faces that decimation changes, with z scaled; none without decimation
+    std::optional<FloorResult> floor;      // what was done about faces below that; none without decimation
+    std::optional<RemeshResult> remeshed;  // where ReconstructOptions::edge_length asked for it
     std::optional<SmoothLinesResult> smoothed_lines;  // where ReconstructOptions::smooth_lines asked for it
     std::optional<ImproveResult> improved;            // where ReconstructOptions::improve asked for it
     double error_bound = 0;  // no point of the surface before or after decimation is farther from the other

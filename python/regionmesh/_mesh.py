@@ -231,8 +231,8 @@ class Mesh:
         progress : bool or callable, optional
             As in `reconstruct`.
         **options
-            The options of `regionmesh decimate`, see below; one of `reduce`, `target_faces`, `max_error`, `improve`
-            and `smooth_lines` is needed.
+            The options of `regionmesh decimate`, see below; one of `reduce`, `target_faces`, `max_error`,
+            `edge_length`, `improve` and `smooth_lines` is needed.
 
         Returns
         -------

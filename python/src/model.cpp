@@ -243,9 +243,10 @@ Model model_of(const GivenArrays& given, const GivenLabels& labels) {
 Model simplified(const Model& model, const OptionValues& options, const std::optional<Lattice>& samples, Watch& watch) {
     Settings settings = settings_from(options);
     settings.reconstruct.cap = !model.is_open;
-    if (!has_target(settings) && !settings.reconstruct.improve && !settings.reconstruct.smooth_lines)
+    if (!has_target(settings) && !settings.reconstruct.improve && !settings.reconstruct.smooth_lines &&
+        !settings.reconstruct.edge_length)
         throw Error(ErrorCode::kUsage,
-                    "simplify: no target; give target_faces, reduce, max_error, improve or smooth_lines");
+                    "simplify: no target; give target_faces, reduce, max_error, edge_length, improve or smooth_lines");
     Model made;
     watch.run([&] {
         made = copy_of(model);

@@ -325,7 +325,7 @@ std::unique_ptr<FolderLock> enter_folder(const OpenSections& open, const Reconst
 void require_block_options(const ReconstructOptions& options) {
     for (const auto& [is_given, name] :
          {std::pair{options.preserve_volume, "preserve-volume"}, std::pair{options.improve, "improve"},
-          std::pair{options.smooth_lines, "smooth-lines"}})
+          std::pair{options.smooth_lines, "smooth-lines"}, std::pair{options.edge_length.has_value(), "edge-length"}})
         if (is_given)
             throw Error(ErrorCode::kUsage,
                         fmt::format("--{}: needs the whole surface at once, which a folder of pieces has not; leave it "

@@ -6,9 +6,6 @@
 #include "judge/verdict/verdicts.h"
 
 namespace regionmesh {
-namespace {
-
-/// The edge of f opposite to `place`, if it has two faces, of one interface and of the same direction.
 std::optional<Flip> find_flip(const Mesh& mesh, FaceId f, int place) {
     const auto& own = mesh[f].vertices;
     Flip flip{
@@ -26,8 +23,6 @@ std::optional<Flip> find_flip(const Mesh& mesh, FaceId f, int place) {
     if (count != 2 || flip.d == kNoVertex || mesh[flip.g].labels != mesh[f].labels) return {};
     return flip;
 }
-
-}  // namespace
 
 EdgeFlips::EdgeFlips(Judge& judge, SurfaceDrift& drift, double poor)
     : judge_(judge), mesh_(judge.mesh()), drift_(drift), poor3_(poor * poor * poor) {}

@@ -8,6 +8,9 @@
 
 namespace regionmesh {
 
+/// The flip of the edge of f opposite to `place`, where it has two faces, of one interface and of the same direction.
+std::optional<Flip> find_flip(const Mesh& mesh, FaceId f, int place);
+
 /// Tries flips one by one. Holds the scratch space of their tests.
 class EdgeFlips {
 public:

@@ -135,6 +135,7 @@ FloorResult raise_floor(Mesh& mesh, const Promises& promises) {
     }
     result.below_after = low.size();
     result.lowest_after = lowest_quality(mesh);
+    result.error_bound = largest_error_bound(mesh);
     for (std::size_t n = 0; n < std::min(low.size(), FloorResult::kMostLeft); ++n) {
         const auto p = mesh.corners(low[n]);
         result.left.push_back((p[0] + p[1] + p[2]) / 3);

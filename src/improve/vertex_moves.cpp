@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
+#include "improve/on_star.h"
 #include "judge/verdict/verdicts.h"
 #include "mesh/strata.h"
 
@@ -23,20 +23,6 @@ constexpr std::array kFreeSteps{0.01, 0.02, 0.04, 0.08, 0.16, 0.3};
 
 /// Height of an equilateral triangle of side 1.
 constexpr double kIdealHeight = 0.8660254037844386;
-
-/// The point above or below `target` along `up` on the star of faces from `apex` over the link; none where the target
-/// lies beyond the link. A sum of steps from the apex to corners of one face keeps coordinates that all of them have.
-std::optional<Vec3> point_on_star(const EdgeStar& star, Vec3 apex, Vec3 target, Vec3 up) {
-    const Vec3 step = target - apex;
-    for (int n = 0; n < star.face_count(); ++n) {
-        const Vec3 to_a = star.at_a(n) - apex, to_b = star.at_b(n) - apex;
-        const double turn = dot(up, cross(to_a, to_b));
-        if (turn <= 0) continue;
-        const double s = dot(up, cross(step, to_b)) / turn, t = dot(up, cross(to_a, step)) / turn;
-        if (s >= 0 && t >= 0 && s + t < 1) return apex + (s * to_a + t * to_b);
-    }
-    return {};
-}
 
 /// The axes, the diagonals between two and between three of them, both ways, as unit vectors; those that leave no side.
 std::vector<Vec3> directions_along(SideSet sides) {

@@ -13,6 +13,9 @@
 namespace regionmesh {
 namespace {
 
+/// Where faces are added, the tree of faces gets room for this share more.
+constexpr std::uint32_t kSpareShare = 4;
+
 /// Samples on the sides of their box keep their regions only while the surface stays in it.
 Box limits_of(const Promises& promises) {
     const Box limits = promises.box.value_or(kUnbounded);
@@ -148,9 +151,10 @@ void Judge::split(Change& change) {
 /// Where splits need more places than collapses have left free.
 void Judge::make_room() {
     if (mesh_.face_end() <= known_faces_) return;
-    if (tree_) tree_->build(threads_);
+    const std::uint32_t spare = rising_ ? 0 : mesh_.face_end() / kSpareShare;
+    if (tree_) tree_->build(threads_, spare);
     if (rising_) rising_->build(mesh_);
-    known_faces_ = mesh_.face_end();
+    known_faces_ = mesh_.face_end() + spare;
 }
 
 void Judge::pack(std::uint32_t threads) {

@@ -4,8 +4,8 @@
 
 namespace regionmesh {
 
-void FaceTree::build(std::uint32_t threads) {
-    const std::uint32_t faces = mesh_->face_end();
+void FaceTree::build(std::uint32_t threads, std::uint32_t spare) {
+    const std::uint32_t faces = mesh_->face_end() + spare;
     const Box extent = extent_of(*mesh_, threads);
     if (!is_paired_) return boxes_.build(faces, extent, threads, [&](std::uint32_t f) { return box_at(f); });
     boxes_.build(faces / 2 + faces % 2, extent, threads, [&](std::uint32_t pair) {

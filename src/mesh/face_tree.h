@@ -27,8 +27,8 @@ public:
         build(threads);
     }
 
-    /// Rebuilds the tree from the living faces; releases the old boxes first.
-    void build(std::uint32_t threads = 1);
+    /// Rebuilds the tree from the living faces, with room for `spare` more; releases the old boxes first.
+    void build(std::uint32_t threads = 1, std::uint32_t spare = 0);
 
     /// Moves face f to `box`. In pairs, reads the position of the other face from the mesh. The boxes above it grow and
     /// never shrink.

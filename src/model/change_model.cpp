@@ -5,6 +5,7 @@
 #include "regionmesh/box_axes.h"
 #include "regionmesh/improve.h"
 #include "regionmesh/process.h"
+#include "regionmesh/remesh.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
 #include "regionmesh/smooth_lines.h"
@@ -80,7 +81,7 @@ ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOpti
     std::optional<std::uint64_t> in_all;  // known where the target is a number of faces
     if (options.target_faces > 0) in_all = report.initial_faces - options.target_faces;
     options.on_progress = [&](std::uint64_t left) { note("decimate", report.initial_faces - left, in_all); };
-    {
+    if (settings.reconstruct.decimate) {
         const Timer timer(report.seconds["decimate"]);
         note_simplified(simplify(mesh, options), report);
         if (has_target(settings)) {
@@ -88,6 +89,19 @@ ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOpti
             report.floor = raise_floor(mesh, promises);
             report.error_bound = trim_added(mesh, options, report.stopped, report.verdicts);
         }
+    }
+    if (settings.reconstruct.edge_length) {
+        const Timer timer(report.seconds["remesh"]);
+        RemeshOptions remeshing{.promises = promises, .edge_length = *settings.reconstruct.edge_length};
+        remeshing.on_progress = [&] { note("remesh", 0, std::nullopt); };
+        report.remeshed = remesh(mesh, remeshing);
+        report.quality_bound = promises.quality_bound();
+        const FloorResult floor = raise_floor(mesh, promises);
+        if (report.floor)
+            report.floor->follow(floor);
+        else
+            report.floor = floor;
+        report.error_bound = floor.error_bound;
     }
     if (settings.reconstruct.smooth_lines) {
         const Timer timer(report.seconds["smooth lines"]);

@@ -10,14 +10,15 @@ namespace regionmesh {
 
 using Rows = std::vector<OptionSpec>;
 
-inline constexpr std::uint32_t kSurfaceCommands = kDecimate | kSmooth | kCheck;
-inline constexpr std::uint32_t kWriters = kReconstruct | kDecimate | kSmooth;
+inline constexpr std::uint32_t kSurfaceCommands = kDecimate | kRemesh | kSmooth | kCheck;
+inline constexpr std::uint32_t kWriters = kReconstruct | kDecimate | kRemesh | kSmooth;
 inline constexpr std::uint32_t kVolumeCommands = kReconstruct | kCheck | kInfo;
 inline constexpr std::uint32_t kEveryCommand = 0xFFFFFFFFu;
 inline constexpr std::uint32_t kSmoothers = kReconstruct | kSmooth;
 inline constexpr std::uint32_t kDecimators = kReconstruct | kDecimate;
+inline constexpr std::uint32_t kFinishers = kReconstruct | kDecimate | kRemesh;
 inline constexpr std::uint32_t kAllCommands =
-    kReconstruct | kDecimate | kSmooth | kCheck | kConvert | kCompare | kInfo | kVoxelise | kView;
+    kReconstruct | kDecimate | kRemesh | kSmooth | kCheck | kConvert | kCompare | kInfo | kVoxelise | kView;
 
 // One function a group, in the order of help texts.
 Rows argument_rows();

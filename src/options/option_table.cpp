@@ -26,6 +26,8 @@ const std::vector<CommandSpec>& command_table() {
          "regionmesh reconstruct scan.nii.gz -o model.vtp --reduce 90% --report report.json"},
         {kDecimate, "decimate", "reduce the faces of a labelled surface",
          "regionmesh decimate model.vtp -o small.vtp --target-faces 50000"},
+        {kRemesh, "remesh", "bring the edges of a labelled surface near one length",
+         "regionmesh remesh model.vtp -o even.vtp --edge-length 2"},
         {kSmooth, "smooth", "smooth a labelled surface", "regionmesh smooth model.vtp -o smooth.vtp --smooth 100"},
         {kCheck, "check", "look for cracks, folds, crossing faces and changes of topology",
          "regionmesh check model.vtp --sections scan.nii.gz"},

@@ -218,7 +218,7 @@ Rows run_rows() {
             {.name = "threads",
              .help = "number of threads; 0: one per core. The result is the same for any number",
              .group = kGroup,
-             .commands = kDecimators | kSmooth | kCheck | kCompare | kView},
+             .commands = kFinishers | kSmooth | kCheck | kCompare | kView},
             [](Settings& s) { return &s.reconstruct.threads; }, kAnyThreads),
         inverted_flag(
             {.name = "no-sandbox",

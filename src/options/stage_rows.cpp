@@ -66,23 +66,24 @@ Rows decimation_rows() {
                 .commands = kDecimators,
                 .unit = "faces"},
                [](Settings& s) { return &s.reconstruct.target_faces; }),
-        special_option({.name = "reduce",
-                        .is_basic = true,
-                        .help = "stop when this share of the faces is removed, such as 90%",
-                        .group = kGroup,
-                        .commands = kDecimators,
-                        .range = Range{0, 1}.text()},
-                       OptionKind::kShare,
-                       [](Settings& s, const std::string& flag, const std::string& text) {
-                           s.reconstruct.reduce = parse_share(flag, text);
-                       }),
+        special_option(
+            {.name = "reduce",
+             .is_basic = true,
+             .help = "stop when this share of the faces is removed, such as 90%; 0 for reconstruct: no decimation",
+             .group = kGroup,
+             .commands = kDecimators,
+             .range = Range{0, 1}.text()},
+            OptionKind::kShare,
+            [](Settings& s, const std::string& flag, const std::string& text) {
+                s.reconstruct.reduce = parse_share(flag, text);
+            }),
         without_default(option(
             {.name = "max-error",
              .is_basic = true,
              .help = "no point of the model is farther than this from the surface before decimation, nor the other way "
                      "round",
              .group = kGroup,
-             .commands = kDecimators,
+             .commands = kFinishers,
              .unit = "length"},
             [](Settings& s) { return &s.reconstruct.promises.max_error; })),
         option({.name = "perturbation",
@@ -224,15 +225,25 @@ Rows validity_rows() {
              .group = kGroup,
              .commands = kWriters},
             [](Settings& s) { return &s.reconstruct.promises.min_quality; }, kQualities),
+        option(
+            {.name = "edge-length",
+             .is_basic = true,
+             .help =
+                 "after decimation, split, collapse and flip edges and move vertices until the edges have about this "
+                 "length, faces nearly equilateral",
+             .group = kGroup,
+             .commands = kFinishers,
+             .unit = "length"},
+            [](Settings& s) { return &s.reconstruct.edge_length; }, kLengths),
         option({.name = "smooth-lines",
                 .help = "at the end, move the vertices of lines between three regions so that the lines turn less",
                 .group = kGroup,
-                .commands = kDecimators},
+                .commands = kFinishers},
                [](Settings& s) { return &s.reconstruct.smooth_lines; }),
         option({.name = "improve",
                 .help = "at the end, flip edges and move vertices so that faces get better, for finite elements",
                 .group = kGroup,
-                .commands = kDecimators},
+                .commands = kFinishers},
                [](Settings& s) { return &s.reconstruct.improve; }),
         inverted_flag({.name = "no-keep-samples",
                        .help = "decimation may carry samples of sections into other regions; more faces can go",
@@ -243,7 +254,7 @@ Rows validity_rows() {
         inverted_flag({.name = "no-intersect-check",
                        .help = "no tests for crossing faces while the surface is changed; faster",
                        .group = kGroup,
-                       .commands = kWriters},
+                       .commands = kReconstruct | kDecimate | kSmooth},
                       [](Settings& s) { return &s.reconstruct.promises.intersect_check; }),
     };
 }

@@ -24,6 +24,21 @@ std::function<void()> progress_of(RunLog& log, WorkStage stage, const char* name
 
 }  // namespace
 
+void remesh_faces(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log) {
+    if (!options.edge_length) return;
+    const StageTimer timer = log.time("remesh");
+    const Promises promises = promises_of(options, ground_of(shape));
+    RemeshOptions own{.promises = promises, .edge_length = *options.edge_length};
+    own.on_progress = progress_of(log, WorkStage::kRemesh, "remesh", 1 + result.mesh.face_end() / 4096.0);
+    result.report.remeshed = remesh(result.mesh, own);
+    const FloorResult floor = raise_floor(result.mesh, promises);
+    if (result.report.floor)
+        result.report.floor->follow(floor);
+    else
+        result.report.floor = floor;
+    result.report.error_bound = floor.error_bound;
+}
+
 void smooth_lines(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log) {
     if (!options.smooth_lines) return;
     const StageTimer timer = log.time("smooth lines");

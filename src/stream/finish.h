@@ -13,6 +13,7 @@ namespace regionmesh {
 void smooth_lines(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log);
 
 /// Makes faces better, where the options ask for it.
+void remesh_faces(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log);
 void improve_faces(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log);
 
 /// Gives the regions the volumes that they had before smoothing and decimation, where the options ask for it.

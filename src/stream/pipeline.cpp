@@ -1,6 +1,6 @@
 // The whole story: from sections, or tetrahedra, to a checked mesh. Each stage has a header of its own.
 //
-//   read -> cells -> smooth -> tiles -> merge -> simplify -> (smooth lines) -> (improve) -> check
+//   read -> cells -> smooth -> tiles -> merge -> simplify -> (remesh) -> (smooth lines) -> (improve) -> check
 #include "stream/pipeline.h"
 
 #include <optional>
@@ -84,6 +84,7 @@ void plan_progress(RunLog& log, const Plan& plan, const ReconstructOptions& opti
     if (options.smooth.passes == 0) log.leave_out(WorkStage::kSmooth);
     if (!plan.is_decimating)
         for (const WorkStage stage : {WorkStage::kTiles, WorkStage::kPasses, WorkStage::kTrim}) log.leave_out(stage);
+    if (!options.edge_length) log.leave_out(WorkStage::kRemesh);
     if (!options.smooth_lines) log.leave_out(WorkStage::kLines);
     if (!options.improve) log.leave_out(WorkStage::kImprove);
     if (!options.preserve_volume) log.leave_out(WorkStage::kVolumes);
@@ -138,7 +139,10 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
 
     simplify.bring_to_target();
     log.advance(WorkStage::kTrim, 1);
-    if (plan.is_decimating) result.report.quality_bound = quality_bound(options, ground_of(shape));
+    if (plan.is_decimating || options.edge_length)
+        result.report.quality_bound = quality_bound(options, ground_of(shape));
+    remesh_faces(result, options, shape, log);
+    log.advance(WorkStage::kRemesh, 1);
     smooth_lines(result, options, shape, log);
     log.advance(WorkStage::kLines, 1);
     improve_faces(result, options, shape, log);

@@ -73,6 +73,7 @@ protected:
         }
         if (command.command == kDecimate && option.name != "target-faces" && option.name != "reduce")
             line += " --target-faces 10";
+        if (command.command == kRemesh && option.name != "edge-length") line += " --edge-length 2";
         if (option.inputs != kAnyInput && command.command == kCheck && option.name != "sections")
             line += " --sections " + path(input_for(option)).string();
         if (option.name == "terrain") line += " --layers auto";

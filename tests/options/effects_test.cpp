@@ -97,7 +97,7 @@ const std::vector<Effect> kEffects{
     // Labels
     {"background", "1"},
     {"no-background", ""},
-    {"boundary", "open", Part::kAny, kDecimate, {.model = "{open}"}},
+    {"boundary", "open", Part::kAny, kDecimate | kRemesh, {.model = "{open}"}},
     {"boundary", "open"},
     {"cells", "tetrahedra", Part::kFiles, kReconstruct},
     {"cells", "tetrahedra"},
@@ -112,6 +112,7 @@ const std::vector<Effect> kEffects{
     {"target-faces", "300", Part::kFiles, kDecimate, {.more = "--improve"}},
     {"reduce", "70%", Part::kFiles, kReconstruct},
     {"reduce", "70%", Part::kFiles, kDecimate, {.more = "--improve"}},
+    {"max-error", "0.02", Part::kFiles, kRemesh},
     {"max-error", "0.1", Part::kFiles, kAll, {.more = "--reduce 90%"}},
     {"perturbation", "0.5", Part::kFiles, kAll, kReduced},
     {"placement", "lindstrom-turk", Part::kFiles, kAll, kReduced},
@@ -132,8 +133,12 @@ const std::vector<Effect> kEffects{
 
     // Promises
     {"min-quality", "0.2", Part::kFiles, kSmooth, {.more = "--smooth-filter laplacian --smooth 60"}},
+    {"min-quality", "0.2", Part::kFiles, kRemesh},
     {"min-quality", "0.2", Part::kFiles, kAll, {.more = "--reduce 90%"}},
+    {"edge-length", "3", Part::kFiles, kAll, kReduced},
+    {"smooth-lines", "", Part::kFiles, kRemesh},
     {"smooth-lines", "", Part::kFiles, kAll, kReduced},
+    {"improve", "", Part::kFiles, kRemesh},
     {"improve", "", Part::kFiles, kAll, kReduced},
     {"no-keep-samples", "", Part::kFiles, kAll, {.more = "--reduce 90%"}},
     {"no-intersect-check",
@@ -185,6 +190,7 @@ struct WithoutEffect {
 const std::vector<WithoutEffect> kWithoutEffect{
     {"sweep", kCheck, "findings do not depend on the order in which sections are read"},
     {"step", kCheck, "topology, which a check compares, is the same for any distance of points but the largest"},
+    {"edge-length", kRemesh, "the command is refused without it"},
     {"surveys", kCheck, "topology is the same, unless holes meet"},
     {"threads", kAll, "the result is the same for any number"},
     {"no-sync", kAll, "shows after a loss of power only"},
@@ -370,6 +376,10 @@ protected:
                 line += way.model + " -o " + to("m.vtp") + (has_target ? "" : " --reduce 60%");
                 break;
             }
+            case kRemesh:
+                line += way.model + " -o " + to("m.vtp");
+                if (way.more.find("--edge-length") == std::string::npos) line += " --edge-length 2";
+                break;
             case kSmooth:
                 line += way.model + " -o " + to("m.vtp");
                 break;

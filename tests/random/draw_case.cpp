@@ -181,6 +181,7 @@ bool draw_decimation(Words& words, double finest, Draw& draw) {
     if (draw.one_in(4)) words.insert(words.end(), {"--min-quality", text_of(draw.between(0, 0.26))});
     if (draw.one_in(4)) words.push_back("--improve");
     if (draw.one_in(4)) words.push_back("--smooth-lines");
+    if (draw.one_in(6)) words.insert(words.end(), {"--edge-length", text_of(finest * draw.between(0.5, 6))});
     return true;
 }
 

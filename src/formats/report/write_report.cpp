@@ -86,6 +86,24 @@ Json lines_json(const SmoothLinesResult& done) {
             {"turn_after", done.turn_after}, {"largest_displacement", done.largest_displacement}};
 }
 
+Json lengths_json(const EdgeLengths& lengths) {
+    return {{"edges", lengths.edges},
+            {"wanted", lengths.wanted},
+            {"mean", lengths.mean},
+            {"least", lengths.least},
+            {"largest", lengths.largest}};
+}
+
+Json remeshed_json(const RemeshResult& done) {
+    return {{"splits", done.splits},
+            {"collapses", done.collapses},
+            {"flips", done.flips},
+            {"moves", done.moves},
+            {"sweeps", done.sweeps},
+            {"before", lengths_json(done.before)},
+            {"after", lengths_json(done.after)}};
+}
+
 Json improved_json(const ImproveResult& done) {
     return {{"flips", done.flips},
             {"moves", done.moves},
@@ -218,6 +236,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
                                  {"drift", report.preserved.drift},
                                  {"regions_off", report.preserved.regions_off},
                                  {"held_vertices", report.preserved.held_vertices}};
+    if (report.remeshed) json["remeshed"] = remeshed_json(*report.remeshed);
     if (report.smoothed_lines) json["smoothed_lines"] = lines_json(*report.smoothed_lines);
     if (report.floor) json["floor"] = floor_json(*report.floor);
     if (report.improved) json["improved"] = improved_json(*report.improved);
