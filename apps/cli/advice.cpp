@@ -3,12 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "messages.h"
 #include "output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -212,6 +215,25 @@ std::string background_text(const Settings& settings, const Reconstruction& made
     const double share = 100 * static_cast<double>(samples) / static_cast<double>(made.report.samples->samples);
     return fmt::format("; {:.3g} % of the samples are background, label {} ({})", share, labels,
                        has_background(settings) ? "as --background says" : "--no-background makes it a region");
+}
+
+void warn_of_overlaps(const Overlaps& overlaps, const LabelTable& labels, const LabelNames& names) {
+    if (overlaps.samples.empty()) return;
+    std::vector<std::pair<std::uint64_t, std::pair<InputLabel, InputLabel>>> pairs;
+    for (const auto& [pair, samples] : overlaps.samples) pairs.emplace_back(samples, pair);
+    std::ranges::stable_sort(pairs, std::greater<>(), [](const auto& entry) { return entry.first; });
+    const auto name_of = [&](InputLabel label) {
+        const auto name = names.find(label);
+        return name == names.end() ? labels.text(label) : printable(name->second);
+    };
+    constexpr std::size_t kShown = 3;
+    std::string text;
+    for (std::size_t n = 0; n < std::min(kShown, pairs.size()); ++n)
+        text += fmt::format("{}{} and {} in {}", n == 0 ? "" : ", ", name_of(pairs[n].second.first),
+                            name_of(pairs[n].second.second), counted(pairs[n].first, "sample"));
+    if (pairs.size() > kShown)
+        text += fmt::format(", and {}, which --report lists", counted(pairs.size() - kShown, "more pair"));
+    warn(fmt::format("regions overlap: {}; the later region has them, unless --priority says otherwise", text));
 }
 
 }  // namespace regionmesh::cli

@@ -40,4 +40,7 @@ std::string missed_text(const Settings& settings, const VerdictCounts& verdicts)
 /// Warns of --smooth strong where normal gives the same bytes: where sections are far apart.
 void warn_of_same_smoothing(const Settings& settings, const Vec3& spacing);
 
+/// Warns of samples that several masks claim.
+void warn_of_overlaps(const Overlaps& overlaps, const LabelTable& labels, const LabelNames& names);
+
 }  // namespace regionmesh::cli

@@ -92,10 +92,10 @@ std::string content_of(const fs::path& path) {
 /// What a volume in files says besides its samples; some of it comes from files beside or above its own.
 std::optional<VolumeInfo> info_of_volume(const Settings& settings) {
     if (kind_of_input(settings.inputs) != kVolumeInput || settings.inputs.front() == "-") return {};
-    ReadOptions options = settings.volume;
-    options.select = {};  // which may read samples
-    options.merge_table.clear();
-    return open_sections({settings.inputs.begin(), settings.inputs.end()}, options)->info();
+    Settings whole = settings;
+    whole.volume.select = {};  // which may read samples
+    whole.volume.merge_table.clear();
+    return open_lattice(whole, whole.inputs)->info();
 }
 
 std::string lattice_text(const VolumeInfo& info) {

@@ -175,6 +175,7 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, co
     notes.sections = open_prepared_volume(settings, settings.inputs);
     print_sections(notes.sections);
     Reconstruction made = make(*notes.sections.reader);
+    if (const auto overlaps = notes.sections.reader->info().overlaps) made.report.overlaps = *overlaps;
     made.report.sections_between = notes.sections.between;
     made.report.sections_moved = notes.sections.sections_moved;
     made.report.largest_section_shift = notes.sections.largest_shift;
@@ -263,6 +264,7 @@ int run_reconstruct(const Settings& settings) {
     files.commit();
     if (!settings.write_labels.empty()) write_modelled_labels(settings);
     print_region_files(settings, written);
+    warn_of_overlaps(report.overlaps, made.labels, names);
     print_summary(settings, made, notes.coordinates.metres);
     return exit_code(report);
 }

@@ -9,6 +9,7 @@ import draw
 import lead
 import numpy
 import presets
+import rough
 from lab import Lab
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "boreholes"))
@@ -99,4 +100,6 @@ def measure(bench, part):
         result = bench.case("brain_normal", bench.source("brain"), "--smooth", "normal")
         lead.make(bench.model("brain_normal"), bench.pictures / "aal.png")
         return result
+    if part == "rough":
+        return rough.make(bench, bench.pictures / "rough.png")
     return rooms(bench) if part == "room" else kept_samples(bench) if part == "samples" else presets_of(bench, part)

@@ -99,9 +99,11 @@ public:
     /// Throws Error(kInput) beyond kMostVertices (limits.h).
     VertexId add_vertex(Vec3 position, SideSet sides = 0, bool is_fixed = false);
     /// The normal of a, b, c points from region `first` to region `second`. Stored with the smaller label first, so
-    /// that all faces of an interface have the same orientation. Throws Error(kInput) beyond kMostFaces (limits.h).
+    /// that all faces of an interface have the same orientation. Throws Error(kInput) beyond kMostFaces (limits.h),
+    /// Error(kUsage) for a vertex that does not exist.
     FaceId add_face(VertexId a, VertexId b, VertexId c, Label first, Label second);
-    /// Removes the face from the stars of its vertices; the vertices stay.
+    /// Removes the face from the stars of its vertices; the vertices stay. Throws Error(kUsage) for a face that does
+    /// not exist.
     void remove_face(FaceId f);
     /// Requires an empty star.
     void remove_vertex(VertexId v);

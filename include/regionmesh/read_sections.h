@@ -24,6 +24,13 @@ struct ReadOptions {
     std::optional<std::array<std::uint32_t, 3>> raw_size = {};  // raw files: samples along x, y, z
     std::optional<SampleType> raw_type = {};                    // raw files: type of the little-endian samples
     std::optional<std::uint32_t> layer = {};                    // of a file with several layers, counted from 0
+    std::vector<std::string> priority = {};  // of overlapping masks: names or labels, from the one that wins; then the
+                                             // others, the last first
+    std::vector<double> threshold =
+        {};               // rising: a label is the number of these that a sample reaches; none: the sample
+    bool argmax = false;  // volumes of one file, or several files, are shares or distances of labels, and the
+                          // label is that of the largest; where that is below `threshold`, it is 0
+    std::optional<double> pitch = {};        // contours: distance of samples in a section; none: from the contours
     Space space = Space::kUnknown;           // turns the volume into this space, if its file says another
     std::uint64_t max_work = kMostWork;      // refuses volumes of more work, which a tiny file may describe
     bool external_files = false;             // a header may name files outside its own folder and those below it

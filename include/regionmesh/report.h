@@ -11,6 +11,7 @@
 #include "regionmesh/denoise.h"
 #include "regionmesh/improve.h"
 #include "regionmesh/remesh.h"
+#include "regionmesh/section_reader.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
 #include "regionmesh/smooth_lines.h"
@@ -46,6 +47,7 @@ struct Report {
     std::uint32_t sections_between = 0;      // put between each two of the input, before anything else
     std::uint32_t sections_moved = 0;        // in their plane, by PrepareOptions::align
     double largest_section_shift = 0;        // of those, in samples
+    Overlaps overlaps = {};                  // of the masks that the input consists of
     std::uint64_t samples_in_room = 0;       // changed by ReconstructOptions::room, before anything else
     std::optional<SampleAgreement> samples;  // of sections; none where they cannot be read again, or the box is open
 };

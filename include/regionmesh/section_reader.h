@@ -4,9 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "regionmesh/label.h"
@@ -16,6 +19,18 @@
 namespace regionmesh {
 
 enum class SampleType { kU1, kI8, kU8, kI16, kU16, kI32, kU32, kI64, kU64 };
+
+/// Samples that several regions claim, by pairs of labels, the smaller first. A sample of three regions is in two
+/// pairs.
+struct Overlaps {
+    std::map<std::pair<InputLabel, InputLabel>, std::uint64_t> samples = {};
+
+    std::uint64_t total() const {
+        std::uint64_t sum = 0;
+        for (const auto& [pair, count] : samples) sum += count;
+        return sum;
+    }
+};
 
 /// What a reader knows before the first section is read.
 struct VolumeInfo {
@@ -32,7 +47,10 @@ struct VolumeInfo {
     LabelNames names = {};                              // given by the file, or by a table next to it
     LabelColours colours = {};                          // likewise
     std::vector<std::filesystem::path> files = {};      // of samples, where `source` is a header that names them
-    std::string warning = {};  // what the reader decided that the user may not expect: a line, or empty
+    std::shared_ptr<const Overlaps> overlaps = {};      // of masks, as far as sections were read; of other volumes none
+    std::uint32_t layer_count = 1;                      // of the file, one of which is read: volumes, channels or times
+    bool has_ordered_reals = false;  // labels stand for reals in their order, as ReadOptions::threshold needs them
+    std::string warning = {};        // what the reader decided that the user may not expect: a line, or empty
 };
 
 /// What a model made of the volume says of its coordinates.

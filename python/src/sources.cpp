@@ -170,10 +170,11 @@ Source file_source(const std::vector<std::string>& paths, const OptionValues& op
     {
         const py::gil_scoped_release release;
         source.sweep = settings.volume.sweep;
-        source.open = [paths, volume = settings.volume](SweepChoice sweep) {
-            ReadOptions own = volume;
-            own.sweep = sweep;
-            return open_sections({paths.begin(), paths.end()}, own);
+        source.open = [paths, settings](SweepChoice sweep) {
+            Settings own = settings;
+            own.volume.sweep = sweep;
+            return own.tetrahedra.array.empty() ? open_sections({paths.begin(), paths.end()}, own.volume)
+                                                : open_lattice(own, paths);
         };
         source.reader = source.open(source.sweep);
     }

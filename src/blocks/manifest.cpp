@@ -1,6 +1,7 @@
 #include "blocks/manifest.h"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 
 #include "base/fingerprint.h"
@@ -303,6 +304,26 @@ void write_manifest(const Manifest& manifest, const fs::path& folder, const Outp
     file.commit();
 }
 
+namespace {
+
+/// "50%" as 0.5; nothing for other words.
+std::optional<double> share_of(std::string_view text) {
+    const bool is_percent = text.ends_with('%');
+    if (is_percent) text.remove_suffix(1);
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return {};
+    return is_percent ? number / 100 : number;
+}
+
+/// The same text, or the same share as a number and in per cent.
+bool is_same_value(const std::string& a, const std::string& b) {
+    if (a.ends_with('%') == b.ends_with('%')) return a == b;
+    return share_of(a) && share_of(a) == share_of(b);
+}
+
+}  // namespace
+
 void require_same_run(const Manifest& there, const RunIdentity& identity, const fs::path& folder) {
     const auto refuse = [&](const std::string& name, const std::string& was, const std::string& is) {
         throw Error(ErrorCode::kInput, folder.string() + ": was begun with " + name + ' ' + was +
@@ -316,7 +337,7 @@ void require_same_run(const Manifest& there, const RunIdentity& identity, const 
     };
     for (const auto& [name, value] : there.identity) {
         const std::string* const now = find(identity, name);
-        if (!now || *now != value) refuse(name, value, now ? *now : "none");
+        if (!now || !is_same_value(*now, value)) refuse(name, value, now ? *now : "none");
     }
     for (const auto& [name, value] : identity)
         if (!find(there.identity, name)) refuse(name, "not given", value);

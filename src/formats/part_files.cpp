@@ -132,7 +132,7 @@ void remove_outputs_on_signals() {
     sigset_t waited;
     ::sigemptyset(&waited);
     bool is_any = false;
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
         struct sigaction now {};
         if (::sigaction(signal, nullptr, &now) != 0 || now.sa_handler == SIG_IGN) continue;
         ::sigaddset(&waited, signal);

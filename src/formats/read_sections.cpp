@@ -5,8 +5,11 @@
 #include <algorithm>
 
 #include "formats/array/read_pipe.h"
+#include "formats/array/soft_labels.h"
 #include "formats/array/volume_formats.h"
+#include "formats/contours/contours.h"
 #include "formats/input_file.h"
+#include "formats/mask_inputs.h"
 #include "formats/registry.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
@@ -31,9 +34,15 @@ const Format* format_of_folder(const fs::path& folder) {
     return nullptr;
 }
 
+std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions& options);
+
 std::unique_ptr<SectionReader> open_folder(const fs::path& folder, const ReadOptions& options) {
     const Format* format = format_of_folder(folder);
-    if (!format) return formats::open_image_directory(folder, options);
+    if (!format) {
+        const std::vector<fs::path> volumes = formats::volumes_in(folder);
+        if (volumes.size() == 1) return open_one(volumes.front(), options);
+        return formats::open_image_directory(folder, options);
+    }
     if (!format->open_sections) formats::require_readable(folder, format);
     return format->open_sections(folder, options);
 }
@@ -55,6 +64,7 @@ std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions&
             formats::fail(path, "--size and --type are for raw files: leave them out, or give both to read it as raw");
         return formats::open_raw(path, options);
     }
+    if (formats::holds_contours(path)) return formats::open_contours(path, options);
     formats::require_readable(path, format);
     if (format && format->open_sections) return format->open_sections(path, options);
     formats::fail(
@@ -70,8 +80,9 @@ formats::DatasetPath formats::split_dataset(const fs::path& path) {
     if (fs::exists(path, ignored)) return {path, {}};
     for (std::size_t colon = text.find(':'); colon != std::string::npos; colon = text.find(':', colon + 1)) {
         const fs::path file = text.substr(0, colon);
-        const Format* format = find_format(file);
-        if (!format || !format->has_datasets || !fs::is_regular_file(file, ignored)) continue;
+        if (!fs::is_regular_file(file, ignored)) continue;
+        const Format* format = find_format(InputFile(file));
+        if (!format || !format->has_datasets) continue;
         const std::string inside = text.substr(colon + 1);
         return {file, inside.starts_with('/') ? inside : "/" + inside};
     }
@@ -90,16 +101,49 @@ void require_work(const SectionReader& reader, std::uint64_t most) {
                               reader.section_count(), reader.section_width(), reader.section_height(), work, most));
 }
 
+/// With the labels that options.threshold makes.
+std::unique_ptr<SectionReader> with_thresholds(std::unique_ptr<SectionReader> reader, const ReadOptions& options) {
+    if (options.argmax)
+        formats::fail(reader->info().source, "--argmax compares volumes in one file, or several files; leave it out");
+    if (options.threshold.empty()) return reader;
+    return formats::threshold_sections(std::move(reader), options.threshold);
+}
+
+/// Of one file or folder.
+std::unique_ptr<SectionReader> open_labels(const fs::path& path, const ReadOptions& options) {
+    if (options.argmax) return formats::open_argmax({path}, path, options, open_one);
+    return with_thresholds(open_one(path, options), options);
+}
+
+std::unique_ptr<SectionReader> open_several(const std::vector<fs::path>& files, const fs::path& source,
+                                            const ReadOptions& options) {
+    return options.argmax ? formats::open_argmax(files, source, options, open_one)
+                          : formats::open_masks(files, source, options, open_labels);
+}
+
+/// The files of a folder of several volumes; none for anything else.
+std::vector<fs::path> masks_in(const fs::path& path) {
+    std::error_code ignored;
+    if (!fs::is_directory(path, ignored) || format_of_folder(path)) return {};
+    std::vector<fs::path> files = formats::volumes_in(path);
+    if (files.size() < 2) files.clear();
+    return files;
+}
+
 std::unique_ptr<SectionReader> open_inputs(const std::vector<fs::path>& inputs, const ReadOptions& options) {
-    if (inputs.size() == 1 && inputs.front() == "-") return formats::open_pipe(options);
-    if (inputs.size() == 1) return open_one(inputs.front(), options);
+    if (inputs.size() == 1 && inputs.front() == "-") return with_thresholds(formats::open_pipe(options), options);
+    if (inputs.size() == 1) {
+        const std::vector<fs::path> masks = masks_in(inputs.front());
+        return masks.empty() ? open_labels(inputs.front(), options) : open_several(masks, inputs.front(), options);
+    }
     if (std::ranges::find(inputs, fs::path("-")) != inputs.end())
         throw Error(ErrorCode::kUsage, "standard input: is one of several inputs; give it alone, or name files");
     if (options.raw_size || options.raw_type) {
         formats::fail(inputs.front(), "--size and --type are for one raw file, and " + std::to_string(inputs.size()) +
                                           " are given; give one");
     }
-    return formats::open_image_list(inputs, options);
+    if (std::ranges::all_of(inputs, formats::is_volume_file)) return open_several(inputs, inputs.front(), options);
+    return with_thresholds(formats::open_image_list(inputs, options), options);
 }
 
 }  // namespace
@@ -114,6 +158,10 @@ std::unique_ptr<SectionReader> open_sections(const std::vector<fs::path>& inputs
     auto reader = open_inputs(inputs, options);
     require_lattice(reader->info().source, reader->info().lattice);
     require_work(*reader, options.max_work);
+    if (!options.priority.empty() && !reader->info().overlaps)
+        formats::fail(reader->info().source,
+                      "--priority is for masks or segments that may overlap, and each of its samples has one label; "
+                      "leave it out");
     return select_sections(turn_sections(std::move(reader), options.space), selection);
 }
 

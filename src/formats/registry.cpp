@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "formats/file_signature.h"
 #include "formats/input_file.h"
 #include "formats/surface/mesh_formats.h"
 #include "formats/surface/tetrahedron_formats.h"
@@ -77,11 +78,13 @@ constexpr Format kFormats[] = {
     {.name = "NIfTI pair", .extensions = {".hdr", ".img", ".hdr.gz", ".img.gz"}, .open_sections = open_nifti},
     {.name = "NRRD", .extensions = {".nrrd", ".nhdr"}, .open_sections = open_nrrd},
     {.name = "MetaImage", .extensions = {".mha", ".mhd"}, .open_sections = open_meta_image},
-    {.name = "VTI", .extensions = {".vti"}, .open_sections = open_vti},
+    {.name = "VTI", .extensions = {".vti"}, .open_sections = open_vti, .has_datasets = true},
     {.name = "INR", .extensions = {".inr", ".inr.gz"}, .open_sections = open_inr},
     {.name = "NPZ", .extensions = {".npz"}, .open_sections = open_npz},
     {.name = "Amira", .extensions = {".am"}, .open_sections = open_amira},
     {.name = "MRC", .extensions = {".mrc", ".map", ".rec", ".ccp4", ".mrc.gz", ".map.gz"}, .open_sections = open_mrc},
+    {.name = "Neper", .extensions = {".tesr"}, .open_sections = open_tesr},
+    {.name = "contours", .extensions = {".json"}, .open_sections = open_contours},
     {.name = "VTK", .extensions = {".vtk"}, .open_sections = open_legacy_vtk},
     {.name = "FreeSurfer", .extensions = {".mgz", ".mgh"}, .open_sections = open_mgh},
     {.name = "TIFF",
@@ -160,6 +163,7 @@ constexpr Format kFormats[] = {
      .write_region = write_region_stl,
      .has_single_points = true,
      .has_single_region_points = true},
+    {.name = "OFF", .extensions = {".off"}, .read_surface = read_off},
     {.name = "OBJ",
      .extensions = {".obj"},
      .read_surface = read_obj,
@@ -233,6 +237,7 @@ const Format* find_format(const InputFile& file) {
     if (const Format* format = find_format(file.path())) return format;
     for (const Format& format : kFormats)
         if (format.detect_file && format.detect_file(file)) return &format;
+    if (const char* known = extension_by_content(file)) return find_format(std::filesystem::path("a").concat(known));
     return nullptr;
 }
 

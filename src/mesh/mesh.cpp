@@ -2,17 +2,24 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "base/parallel_for.h"
 #include "base/radix_sort.h"
 #include "mesh/morton_curve.h"
+#include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 
 namespace regionmesh {
 namespace {
 
 constexpr std::uint32_t kChunk = 1u << 14;  // vertices or faces of a task
+
+[[noreturn]] void refuse(const char* what, std::uint32_t number) {
+    throw Error(ErrorCode::kUsage, "mesh: there is no " + std::string(what) + ' ' + std::to_string(number) +
+                                       "; it was never added, or is removed");
+}
 
 /// Sorts runs of items with equal keys by rank(index), so that the result does not depend on the order of input. Most
 /// runs have two or three items.
@@ -88,6 +95,8 @@ VertexId Mesh::add_vertex(Vec3 position, SideSet sides, bool is_fixed) {
 }
 
 FaceId Mesh::add_face(VertexId a, VertexId b, VertexId c, Label first, Label second) {
+    for (const VertexId v : {a, b, c})
+        if (index(v) >= vertices_.size() || !vertices_[index(v)].is_alive) refuse("vertex", index(v));
     FaceId f{free_face_};
     if (free_face_ != kNoCorner) {
         free_face_ = faces_[index(f)].next[0];
@@ -124,6 +133,7 @@ void Mesh::unlink(VertexId v, Corner corner) {
 }
 
 void Mesh::remove_face(FaceId f) {
+    if (index(f) >= faces_.size() || !is_alive(f)) refuse("face", index(f));
     for (int place = 0; place < 3; ++place)
         unlink(faces_[index(f)].vertices[place], index(f) << 2 | static_cast<Corner>(place));
     Face& face = faces_[index(f)];

@@ -41,75 +41,6 @@ void add_background(Settings& settings, const std::string& flag, const std::stri
     settings.volume.select.rest = background.front();
 }
 
-// The part of a volume to model; in the order in which it is done.
-Rows selection_rows() {
-    constexpr std::string_view kGroup = "Input";
-    constexpr std::uint32_t kLatticeCommands = kVolumeCommands | kVoxelise;
-    return {
-        special_option(
-            {.name = "roi",
-             .help = "volumes: samples to keep along x, y and z, as 10:50,:,20: (from 10 to 49, all, from 20)",
-             .group = kGroup,
-             .commands = kLatticeCommands,
-             .unit = "samples",
-             .value = "X,Y,Z",
-             .inputs = kVolumeInput},
-            OptionKind::kText,
-            [](Settings& s, const std::string& flag, const std::string& text) {
-                s.volume.select.roi = parse_sample_ranges(flag, text);
-            }),
-        special_option({.name = "box",
-                        .help = "volumes: keep the samples with these coordinates, as 0:120.5,:,-20:35; layers: their "
-                                "extent",
-                        .group = kGroup,
-                        .commands = kLatticeCommands,
-                        .unit = "length",
-                        .value = "X,Y,Z",
-                        .inputs = kVolumeInput | kTableInput},
-                       OptionKind::kText,
-                       [](Settings& s, const std::string& flag, const std::string& text) {
-                           s.volume.select.box = parse_length_ranges(flag, text);
-                       }),
-        special_option({.name = "merge",
-                        .help = "volumes: table of labels to join, with rows old,new or old,new,name; old may be 5-9",
-                        .group = kGroup,
-                        .commands = kVolumeCommands,
-                        .inputs = kVolumeInput},
-                       OptionKind::kFile,
-                       [](Settings& s, const std::string&, const std::string& text) { s.volume.merge_table = text; }),
-        special_option({.name = "labels",
-                        .is_basic = true,
-                        .help = "volumes: labels to keep, as 1,5-9; samples with another label become background",
-                        .group = kGroup,
-                        .commands = kVolumeCommands,
-                        .value = "LABELS",
-                        .inputs = kVolumeInput},
-                       OptionKind::kText,
-                       [](Settings& s, const std::string& flag, const std::string& text) {
-                           s.volume.select.labels = parse_label_ranges(flag, text);
-                       }),
-        special_option(
-            {.name = "downsample",
-             .help = "volumes: samples along each axis that become one, as 2 or 2,2,1; the most frequent label",
-             .group = kGroup,
-             .commands = kLatticeCommands,
-             .unit = "samples",
-             .value = "N|X,Y,Z",
-             .inputs = kVolumeInput},
-            OptionKind::kText,
-            [](Settings& s, const std::string& flag, const std::string& text) {
-                s.volume.select.downsample = parse_factors(flag, text);
-            }),
-        option({.name = "min-region",
-                .help = "volumes: a connected region of fewer samples gets the label with which it has most interface",
-                .group = kGroup,
-                .commands = kVolumeCommands,
-                .unit = "samples",
-                .inputs = kVolumeInput},
-               [](Settings& s) { return &s.volume.select.min_region; }),
-    };
-}
-
 }  // namespace
 
 Rows argument_rows() {
@@ -299,11 +230,11 @@ Rows tetrahedra_rows() {
                            s.reconstruct.scale_z = s.tetrahedra.scale_z = scale;
                        }),
         option({.name = "array",
-                .help = "meshes: name of the array of labels",
+                .help = "volumes and meshes: name of the array of labels in a .vti, HDF5 or DREAM.3D file or a mesh",
                 .group = kGroup,
                 .commands = kVolumeCommands,
                 .value = "NAME",
-                .inputs = kMeshInput},
+                .inputs = kVolumeInput | kMeshInput},
                [](Settings& s) { return &s.tetrahedra.array; }),
         option({.name = "hull",
                 .help = "close regions on the hull of the points; the same as --boundary cap",

@@ -22,7 +22,8 @@ inline constexpr std::uint32_t kAllCommands =
 
 // One function a group, in the order of help texts.
 Rows argument_rows();
-Rows volume_rows();
+Rows volume_rows();  // selection_rows() among them
+Rows selection_rows();
 Rows tetrahedra_rows();
 Rows label_rows();
 Rows surface_rows();

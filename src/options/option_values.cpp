@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -117,6 +118,24 @@ std::uint64_t parse_bytes(const std::string& flag, const std::string& text) {
 InputLabel parse_label(const std::string& flag, const std::string& text) {
     if (const auto label = label_in(text)) return label->value;
     refuse_value(flag, text, "a label: a whole number, such as 3");
+}
+
+std::vector<std::string> parse_names(const std::string& flag, const std::string& text) {
+    std::vector<std::string> names = split(text);
+    if (std::ranges::any_of(names, &std::string::empty)) refuse_value(flag, text, "names or labels, as liver,spleen");
+    return names;
+}
+
+std::vector<double> parse_thresholds(const std::string& flag, const std::string& text) {
+    std::vector<double> values;
+    for (const std::string& part : split(text)) {
+        double value = 0;
+        std::string unit;
+        if (!parse_leading(part, value, unit) || !unit.empty() || (!values.empty() && !(values.back() < value)))
+            refuse_value(flag, text, "numbers that rise, such as 0.5 or 100,300");
+        values.push_back(value);
+    }
+    return values;
 }
 
 Vec3 parse_numbers(const std::string& flag, const std::string& text) {

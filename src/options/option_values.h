@@ -30,6 +30,10 @@ double parse_share(const std::string& flag, const std::string& text);
 std::uint64_t parse_bytes(const std::string& flag, const std::string& text);
 /// Labels above 2^63 - 1 keep their bits.
 InputLabel parse_label(const std::string& flag, const std::string& text);
+/// "liver,spleen": the parts between commas, none of which is empty.
+std::vector<std::string> parse_names(const std::string& flag, const std::string& text);
+/// "0.5", "100,300": numbers that rise.
+std::vector<double> parse_thresholds(const std::string& flag, const std::string& text);
 /// Three numbers above 0.
 Vec3 parse_numbers(const std::string& flag, const std::string& text);
 /// Three whole numbers from 1 to 2^31 - 1.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "formats/array/volume_formats.h"
+#include "formats/contours/contours.h"
 #include "regionmesh/error.h"
 #include "regionmesh/options.h"
 #include "volume/chosen_sections.h"
@@ -81,6 +82,24 @@ LayerOptions layer_options(const Settings& settings) {
             .threads = settings.reconstruct.threads};
 }
 
+namespace {
+
+/// The inputs as open_sections() takes them: --array NAME of a file is its dataset "FILE:/NAME".
+std::vector<std::filesystem::path> named_arrays(const Settings& settings, const std::vector<std::string>& inputs) {
+    const std::string& array = settings.tetrahedra.array;
+    if (array.empty()) return {inputs.begin(), inputs.end()};
+    if (inputs.size() > 1 || inputs.front() == "-")
+        throw Error(ErrorCode::kUsage, "--array " + array + ": chooses one of the arrays of one file; name one file");
+    const formats::DatasetPath path = formats::split_dataset(inputs.front());
+    const std::string named = path.file.string() + ":/" + array;
+    if (!path.dataset.empty() || formats::split_dataset(named).dataset.empty())
+        throw Error(ErrorCode::kUsage,
+                    fmt::format("--array {}: {} has no arrays to choose from; leave it out", array, inputs.front()));
+    return {named};
+}
+
+}  // namespace
+
 bool is_lattice(const Settings& settings, const std::vector<std::string>& inputs) {
     const InputKind kind = kind_of_input(inputs);
     return kind == kVolumeInput || (kind == kTableInput && !settings.layers.empty());
@@ -89,7 +108,7 @@ bool is_lattice(const Settings& settings, const std::vector<std::string>& inputs
 std::unique_ptr<SectionReader> open_lattice(const Settings& settings, const std::vector<std::string>& inputs) {
     if (kind_of_input(inputs) != kVolumeInput)
         return open_layers(inputs.front(), settings.tetrahedra, layer_options(settings));
-    auto sections = open_sections({inputs.begin(), inputs.end()}, settings.volume);
+    auto sections = open_sections(named_arrays(settings, inputs), settings.volume);
     const bool is_in_blocks = settings.block_cells || settings.output.ends_with('/');
     return is_in_blocks ? std::move(sections) : as_plate(std::move(sections));
 }
@@ -102,7 +121,7 @@ PreparedSections open_prepared(const Settings& settings, const std::vector<std::
     const auto open = [&](SweepChoice sweep) {
         ReadOptions volume = settings.volume;
         volume.sweep = sweep;
-        return open_sections({inputs.begin(), inputs.end()}, volume);
+        return open_sections(named_arrays(settings, inputs), volume);
     };
     PreparedSections made = prepare_sections(open, settings.volume.sweep, options);
     made.reader = as_plate(std::move(made.reader));
@@ -112,7 +131,7 @@ PreparedSections open_prepared(const Settings& settings, const std::vector<std::
 InputKind kind_of_input(const std::vector<std::string>& inputs) {
     const auto found = std::ranges::find_if(inputs, [](const auto& input) { return holds_tetrahedra(input); });
     if (found == inputs.end()) return kVolumeInput;
-    if (inputs.size() == 1 && formats::holds_voxels(*found)) return kVolumeInput;
+    if (inputs.size() == 1 && (formats::holds_voxels(*found) || formats::holds_contours(*found))) return kVolumeInput;
     return is_mesh(*found) ? kMeshInput : kTableInput;
 }
 

@@ -74,16 +74,17 @@ Rows decimation_rows() {
                 .commands = kDecimators,
                 .unit = "faces"},
                [](Settings& s) { return &s.reconstruct.target_faces; }),
-        special_option({.name = "reduce",
-                        .is_basic = true,
-                        .help = "stop when this share of the faces is removed, such as 90%",
-                        .group = kGroup,
-                        .commands = kDecimators,
-                        .range = Range{0, 1}.text()},
-                       OptionKind::kShare,
-                       [](Settings& s, const std::string& flag, const std::string& text) {
-                           s.reconstruct.reduce = parse_share(flag, text);
-                       }),
+        special_option(
+            {.name = "reduce",
+             .is_basic = true,
+             .help = "stop when this share of the faces is removed, such as 90%; 0 for reconstruct: no decimation",
+             .group = kGroup,
+             .commands = kDecimators,
+             .range = Range{0, 1}.text()},
+            OptionKind::kShare,
+            [](Settings& s, const std::string& flag, const std::string& text) {
+                s.reconstruct.reduce = parse_share(flag, text);
+            }),
         without_default(option(
             {.name = "max-error",
              .is_basic = true,

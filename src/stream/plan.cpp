@@ -77,8 +77,9 @@ BudgetDemand demand_of(const SourceShape& shape, const Target& target, std::vect
 }  // namespace
 
 bool is_decimating(const ReconstructOptions& options) {
+    const bool is_reduced = options.reduce && *options.reduce > 0;
     return options.decimate &&
-           (options.target_faces || options.reduce || options.promises.max_error < HUGE_VAL || options.free_error > 0);
+           (options.target_faces || is_reduced || options.promises.max_error < HUGE_VAL || options.free_error > 0);
 }
 
 std::vector<std::uint64_t> guessed_strip_faces(const Lattice& lattice, Sweep sweep) {

@@ -393,6 +393,18 @@ TEST_F(BlockProgram, warns_where_single_precision_is_too_coarse_for_neuroglancer
     }
 }
 
+TEST_F(BlockProgram, goes_on_with_a_share_written_otherwise) {
+    const std::string line = grains("model"), word = "--reduce 75%";
+    ASSERT_NE(line.find(word), std::string::npos);
+    ASSERT_EQ(run(line).code, 0);
+    const auto with = [&](const std::string& share) {
+        return run(std::string(line).replace(line.find(word), word.size(), "--reduce " + share));
+    };
+    EXPECT_EQ(with("0.75").code, 0);
+    EXPECT_EQ(with("0.7").code, 1);
+    EXPECT_EQ(with("7.5%").code, 1);
+}
+
 TEST_F(BlockProgram, refuses_a_changed_run_in_one_line) {
     ASSERT_EQ(run(grains("model")).code, 0);
     const Ran other = run(grains("model") + " --min-quality 0.05");

@@ -92,8 +92,10 @@ TEST_F(Usage, a_length_may_have_a_unit) {
 }
 
 TEST_F(Usage, without_a_target_faces_that_cost_nothing_go) {
-    const Ran usual = run(reconstruct_ball()), whole = run(reconstruct_ball("--no-decimate")),
-              none = run(reconstruct_ball("--reduce 0"));
+    const Ran usual = run(reconstruct_ball()), whole = run(reconstruct_ball("--no-decimate"));
+    const std::string model = text_of(out("m.vtp"));
+    const Ran none = run(reconstruct_ball("--reduce 0"));
+    EXPECT_EQ(text_of(out("m.vtp")), model) << "--reduce 0 decimates";
     EXPECT_THAT(usual.out, HasSubstr("no target was given: faces that cost nothing are gone"));
     EXPECT_THAT(whole.out, testing::Not(HasSubstr("no target")));
     const auto faces = [](const Ran& ran) {

@@ -79,3 +79,12 @@ runs = bytes([3, 7, 1, 9]) + bytes([128 + 56]) + bytes(V[4:])
 amira("runs.am", "AmiraMesh BINARY-LITTLE-ENDIAN 2.1", f"(HxByteRLE,{len(runs)})", runs)
 packed = zlib.compress(bytes(V))
 amira("zip.am", "AmiraMesh BINARY-LITTLE-ENDIAN 2.1", f"(HxZip,{len(packed)})", packed)
+
+
+def tesr(name, form, data):
+    head = "***tesr\n **format\n   2.1\n **general\n   3\n   5 4 3\n   0.5 0.25 2\n   *origin\n   1 2 3\n **cell\n   59\n **data\n   "
+    (FOLDER / name).write_bytes(head.encode() + form.encode() + b"\n" + data + b"\n***end\n")
+
+
+tesr("ascii.tesr", "ascii", " ".join(map(str, V)).encode())
+tesr("short.tesr", "binary16_big", struct.pack(">60h", *V))

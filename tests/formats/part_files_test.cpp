@@ -151,7 +151,7 @@ TEST_F(PartFilesTest, files_together_appear_and_leave_nothing_beside_them) {
 }
 
 TEST_F(PartFilesTest, signals_remove_what_is_not_complete) {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
         const pid_t child = ::fork();
         if (child == 0) {
             ::signal(signal, SIG_DFL);  // nohup and shells ignore some in what runs in the background

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "regionmesh/check.h"
+#include "regionmesh/error.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "support/shapes.h"
@@ -85,6 +86,19 @@ TEST(Mesh, removed_faces_leave_the_stars) {
     Mesh mesh = grain_mesh();
     for (std::uint32_t f = 0; f < mesh.face_end(); f += 3) mesh.remove_face(FaceId{f});
     expect_stars_of_faces(mesh);
+}
+
+TEST(Mesh, faces_of_what_does_not_exist_are_refused) {
+    Mesh mesh;
+    const VertexId a = mesh.add_vertex({}), b = mesh.add_vertex({1, 0, 0}), c = mesh.add_vertex({0, 1, 0});
+    EXPECT_THROW(mesh.add_face(a, b, VertexId{3}, 0, 1), Error);
+    const FaceId f = mesh.add_face(a, b, c, 0, 1);
+    mesh.remove_face(f);
+    EXPECT_THROW(mesh.remove_face(f), Error);
+    EXPECT_THROW(mesh.remove_face(FaceId{7}), Error);
+    mesh.remove_vertex(c);
+    EXPECT_THROW(mesh.add_face(a, b, c, 0, 1), Error);
+    EXPECT_EQ(mesh.face_count(), 0u);
 }
 
 TEST(Mesh, move_star_gives_all_faces_to_the_other_vertex) {

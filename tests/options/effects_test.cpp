@@ -54,6 +54,10 @@ const std::vector<Effect> kEffects{
     {"sweep", "z", Part::kText, kInfo},
     {"spacing", "1,2,3"},
     {"layer", "1", Part::kAny, kAll, {.source = "{layers}"}},
+    {"threshold", "3"},
+    {"argmax", "", Part::kAny, kAll, {.source = "{layers}"}},
+    {"pitch", "1.5", Part::kAny, kAll, {.source = "{contours}"}},
+    {"priority", "a", Part::kAny, kAll, {.source = "{contours}", .model = "{model_of_contours}"}},
     {"max-work", "5"},
     {"external-files", "", Part::kAny, kAll, {.source = "{header}"}},
     {"size", "12,13,14", Part::kAny, kAll, {.source = "{raw}", .more = "--type uint8"}},
@@ -310,6 +314,9 @@ protected:
                     points += std::to_string(1 + (x + y > 3) + (z > 1)) + '\n';
                 }
         put("points", "points.csv", "x,y,z,label\n" + points);
+        put("contours", "contours.csv",
+            "label,contour,z,x,y\na,1,0,0,0\na,1,0,9,0\na,1,0,9,9\na,1,0,0,9\na,1,2,0,0\na,1,2,9,0\na,1,2,9,9\n"
+            "b,1,0,4,0\nb,1,0,12,0\nb,1,0,12,9\nb,1,2,4,0\nb,1,2,12,0\nb,1,2,12,9\n");
         put("columns", "columns.csv", "a,b,c,label\n" + points);
         std::string holes = "hole,x,y,surface,from,to,label\n";
         const int places[5][3] = {{0, 0, 3}, {6, 1, 4}, {1, 7, 5}, {6, 6, 6}, {3, 3, 5}};
@@ -333,6 +340,7 @@ protected:
             {"open", "{grains} --smooth off --boundary open"},
             {"without_background", "{grains} --smooth off --no-background"},
             {"model_in_ras", "{ras} --smooth off"},
+            {"model_of_contours", "{contours} --smooth off --denoise off --no-decimate"},
             {"model_of_jittered", "{jittered} --reduce 60%"},
             {"model_of_points", "{points}"},
             {"model_of_drill", "{drill}"},

@@ -114,6 +114,7 @@ ArrayAxes choose_axes(const std::filesystem::path& source, const std::vector<std
         if (*options.layer >= shape[i]) fail(source, what + "; there is no " + std::to_string(*options.layer));
         axes.index[i] = *options.layer;
         axes.has_layers = true;
+        axes.layer_count = shape[i];
     }
     return axes;
 }

@@ -17,7 +17,8 @@ namespace regionmesh::formats {
 struct ArrayAxes {
     std::array<int, 3> axis{-1, -1, -1};  // the axes of the array that are x, y and z; -1: none, with one sample
     std::vector<std::uint64_t> index;     // of the volume along the other axes
-    bool has_layers = false;              // the options chose one of these indices
+    bool has_layers = false;              // the options chose one of these indices,
+    std::uint64_t layer_count = 1;        // of as many
 
     /// The options without those that were used to choose an index.
     ReadOptions without_layer(const ReadOptions& options) const;

@@ -180,6 +180,7 @@ std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOpti
     info.colours = array.colours;
     info.warning = array.warning;
     info.files = array.files;
+    info.layer_count = std::max(array.blocks, array.components);
     if (array.encoding == Encoding::kRaw && files.size() == 1 && array.components == 1) {
         if (array.can_sweep_all) info.can_sweep = {true, true, true};
         InputFile file(files[0]);

@@ -71,7 +71,9 @@ private:
 }  // namespace
 
 std::unique_ptr<SectionReader> open_blocks(std::unique_ptr<BlockSource> source, VolumeInfo info,
-                                           const BlockLayout& layout, const ReadOptions& options) {
+                                           const BlockLayout& given, const ReadOptions& options) {
+    BlockLayout layout = given;
+    order_reals(options, layout.format, info);
     const auto& size = info.lattice.size;
     const std::uint64_t samples = volume_bytes(info.source, size, 1);
     for (const int axis : {0, 1}) {

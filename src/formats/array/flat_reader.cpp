@@ -154,8 +154,10 @@ void check_length(const InputFile& file, const VolumeInfo& info, const FlatLayou
 
 }  // namespace
 
-std::unique_ptr<SectionReader> open_flat(InputFile file, VolumeInfo info, const FlatLayout& layout,
+std::unique_ptr<SectionReader> open_flat(InputFile file, VolumeInfo info, const FlatLayout& given,
                                          const ReadOptions& options) {
+    FlatLayout layout = given;
+    order_reals(options, layout.format, info);
     check_length(file, info, layout);
     apply_options(info, options);
     return std::make_unique<FlatReader>(std::move(file), std::move(info), layout);

@@ -302,22 +302,6 @@ void place_in_space(const HeaderFields& fields, const std::vector<Axis>& axes, c
     set_affine(path, "map to space", kRemedy, columns, origin, lattice);
 }
 
-/// The metres of the one unit that `space units`, or `units`, names for all axes that have one: "mm" "mm" "mm".
-std::optional<double> metres_of(const HeaderFields& fields) {
-    const std::string_view field = fields.text({"spaceunits", "units"});
-    std::optional<std::string_view> unit;
-    for (std::size_t at = field.find('"'); at != std::string_view::npos; at = field.find('"', at + 1)) {
-        const std::size_t end = field.find('"', at + 1);
-        if (end == std::string_view::npos) return {};
-        const std::string_view word = field.substr(at + 1, end - at - 1);
-        at = end;
-        if (word.empty()) continue;
-        if (unit && *unit != word) return {};
-        unit = word;
-    }
-    return unit ? metres_in(*unit) : std::nullopt;
-}
-
 void set_files(const NrrdText& text, ArrayFile& array) {
     const std::string_view data = text.field("datafile");
     if (data.empty()) {
@@ -367,6 +351,17 @@ std::uint32_t chosen_layer(const fs::path& path, const std::optional<Axis>& laye
     return *options.layer;
 }
 
+/// One of the layers.
+std::unique_ptr<SectionReader> open_layer(ArrayFile array, const Roles& roles, const std::vector<NrrdSegment>& segments,
+                                          std::uint32_t layer, const ReadOptions& options) {
+    (roles.has_layers_first ? array.components : array.blocks) =
+        static_cast<std::uint32_t>(roles.layers ? roles.layers->size : 1);
+    (roles.has_layers_first ? array.component : array.block) = layer;
+    take_segments(segments, layer, array);
+    if (array.names.empty()) take_table_beside(array);
+    return open_array(array, without_choice(options));
+}
+
 }  // namespace
 
 std::unique_ptr<SectionReader> open_nrrd(const fs::path& path, const ReadOptions& options) {
@@ -379,15 +374,15 @@ std::unique_ptr<SectionReader> open_nrrd(const fs::path& path, const ReadOptions
     array.lattice.size = checked_size(path, size);
     place_in_space(text.fields, roles.space, options, array);
     array.space = place_in_named_space(text.fields.text({"space"}), array.lattice);
-    array.metres = metres_of(text.fields);
+    array.metres = metres_in_quoted(text.fields.text({"spaceunits", "units"}));
     set_files(text, array);
-    const std::uint32_t layer = chosen_layer(path, roles.layers, options);
-    (roles.has_layers_first ? array.components : array.blocks) =
-        static_cast<std::uint32_t>(roles.layers ? roles.layers->size : 1);
-    (roles.has_layers_first ? array.component : array.block) = layer;
-    take_segments(text.values, layer, array);
-    if (array.names.empty()) take_table_beside(array);
-    return open_array(array, without_choice(options));
+    const std::vector<NrrdSegment> segments = segments_of(text.values);
+    const std::uint64_t layers = roles.layers ? roles.layers->size : 1;
+    if (layers > 1 && layers <= kMostLayers && !segments.empty() && !options.layer && options.threshold.empty())
+        return join_segments(
+            segments, layers, array, [&](std::uint32_t layer) { return open_layer(array, roles, {}, layer, options); },
+            options.priority);
+    return open_layer(array, roles, segments, chosen_layer(path, roles.layers, options), options);
 }
 
 }  // namespace regionmesh::formats

@@ -58,8 +58,10 @@ private:
 }  // namespace
 
 std::unique_ptr<SectionReader> open_stream(std::unique_ptr<ByteStream> stream, VolumeInfo info,
-                                           const StreamLayout& layout, const ReadOptions& options,
+                                           const StreamLayout& given, const ReadOptions& options,
                                            const std::string& remedy) {
+    StreamLayout layout = given;
+    order_reals(options, layout.format, info);
     apply_options(info, options, remedy);
     return std::make_unique<StreamReader>(std::move(stream), std::move(info), layout);
 }

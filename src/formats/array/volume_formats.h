@@ -15,7 +15,8 @@ namespace regionmesh::formats {
 using Opener = std::unique_ptr<SectionReader>(const std::filesystem::path& path, const ReadOptions& options);
 
 Opener open_npy, open_nifti, open_nrrd, open_meta_image, open_vti, open_inr, open_mgh, open_mrc, open_legacy_vtk;
-Opener open_amira, open_npz;
+Opener open_amira, open_npz, open_tesr;
+Opener open_contours;    // polygons in sections: a table with columns for them, or JSON
 Opener open_vtu_voxels;  // cells that are the voxels of a regular grid; held whole, since cells come in any order
 Opener open_raw;         // requires options.raw_size and options.raw_type
 Opener open_tiff;        // pages are sections

@@ -52,6 +52,13 @@ VolumeInfo volume_info(const std::filesystem::path& source, const std::string& f
     return info;
 }
 
+void order_reals(const ReadOptions& options, SampleFormat& format, VolumeInfo& info) {
+    if (options.threshold.empty() && !options.argmax) return;
+    format.is_ordered = true;
+    info.has_ordered_reals = true;
+    info.type = label_type(format);
+}
+
 ReadOptions without_choice(const ReadOptions& options) {
     ReadOptions rest = options;
     rest.layer.reset();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "formats/codec/sample_format.h"
 #include "regionmesh/read_sections.h"
 
 namespace regionmesh::formats {
@@ -26,6 +27,9 @@ std::uint64_t volume_bytes(const std::filesystem::path& path, const std::array<s
 /// A description with default lattice but for the size; the sweep is along z until apply_options sets it.
 VolumeInfo volume_info(const std::filesystem::path& source, const std::string& format, SampleType type,
                        const std::array<std::uint32_t, 3>& size);
+
+/// Where the options make labels of reals: has samples of the format read as ordered_label(). Sets `info` alike.
+void order_reals(const ReadOptions& options, SampleFormat& format, VolumeInfo& info);
 
 /// The options without --layer, for a format that has followed it.
 ReadOptions without_choice(const ReadOptions& options);

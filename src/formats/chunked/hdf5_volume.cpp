@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -180,6 +181,8 @@ std::unique_ptr<SectionReader> open_hdf5_volume(std::unique_ptr<Hdf5Reader> file
     const SampleFormat format = format_of(dataset).value();
     VolumeInfo info = volume_info(volume.source, volume.format, format.type, size);
     place(info, volume.placement, options);
+    info.layer_count = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(axes.layer_count, std::numeric_limits<std::uint32_t>::max()));
     const std::uint64_t sample = sample_bytes(format);
     Triple chunk = reading_chunk(volume, axes, size);
     const bool is_backed = kMaxBlockBytes / kMaxGrowth <= dataset.stored_bytes;

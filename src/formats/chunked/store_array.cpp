@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -319,6 +320,8 @@ std::unique_ptr<SectionReader> open_store_array(StoreArray array, StoreVolume vo
     const bool is_backed = may_be_filled(array, deepest > kMaxBareBytes ? deepest : 0);
     VolumeInfo info = volume_info(volume.source, volume.format, label_type(array.format), size);
     place(info, volume.placement, options);
+    info.layer_count = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(volume.axes.layer_count, std::numeric_limits<std::uint32_t>::max()));
     info.names = std::move(volume.names);
     info.colours = std::move(volume.colours);
     info.files = std::move(volume.files);

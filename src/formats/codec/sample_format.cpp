@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -72,7 +73,9 @@ SampleRange range_of(SampleType type) {
     }
 }
 
-SampleType label_type(const SampleFormat& format) { return format.is_real() ? SampleType::kI64 : format.type; }
+SampleType label_type(const SampleFormat& format) {
+    return format.is_real() || format.is_ordered ? SampleType::kI64 : format.type;
+}
 
 SampleFormat real_format(NumberType real, bool is_big_endian) {
     SampleFormat format{.type = SampleType::kI64, .is_big_endian = is_big_endian};
@@ -80,15 +83,23 @@ SampleFormat real_format(NumberType real, bool is_big_endian) {
     return format;
 }
 
+InputLabel ordered_label(double value) {
+    if (std::isnan(value)) return std::numeric_limits<InputLabel>::min();
+    const auto bits = std::bit_cast<std::int64_t>(value + 0.0);  // -0 becomes 0
+    return bits >= 0 ? bits : bits ^ std::numeric_limits<std::int64_t>::max();
+}
+
 std::string why_no_label(double value) {
     return fmt::format(
-        "is {:.9g}, and labels are whole numbers; segment grey values or shares first, and round the labels", value);
+        "is {:.9g}, and labels are whole numbers; give --threshold V for grey values or shares, or round the labels",
+        value);
 }
 
 namespace {
 
 /// The label of a real. `size` is the sum of the sizes of what it was computed from, which are rounded.
 std::optional<InputLabel> label_of(double value, double size, const SampleFormat& format) {
+    if (format.is_ordered) return ordered_label(value);
     constexpr double kLimit = 9007199254740992;               // 2^53
     constexpr double kRounding = 1e-6, kMostRounding = 1e-2;  // scales are often in single precision
     const bool is_scaled = format.slope != 1 || format.intercept != 0;
@@ -125,7 +136,7 @@ std::optional<NoLabel> decode_reals(const std::byte* bytes, std::size_t pitch, c
 
 std::optional<NoLabel> decode_samples(const std::byte* bytes, std::size_t pitch, const SampleFormat& format,
                                       std::span<InputLabel> labels) {
-    if (format.is_real()) return decode_reals(bytes, pitch, format, labels);
+    if (format.is_real() || format.is_ordered) return decode_reals(bytes, pitch, format, labels);
     load_all(bytes, pitch, number_type(format.type), format.is_big_endian, labels);
     if (format.type == SampleType::kU1)
         for (InputLabel& label : labels) label = label != 0;

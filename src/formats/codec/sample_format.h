@@ -16,6 +16,7 @@ struct SampleFormat {
     bool is_big_endian = false;
     std::optional<NumberType> real = {};  // as which samples are stored, if not as integers of the type
     double slope = 1, intercept = 0;      // a label is slope * stored + intercept
+    bool is_ordered = false;              // labels are ordered_label() of the samples, which may be any numbers
 
     /// Whether samples are more than integers of the type: then some may be no labels.
     bool is_real() const { return real || slope != 1 || intercept != 0; }
@@ -26,6 +27,9 @@ SampleType label_type(const SampleFormat& format);
 
 /// Samples of 4 or 8 bytes that are reals.
 SampleFormat real_format(NumberType real, bool is_big_endian);
+
+/// A label that stands for a real: it is larger for larger ones, and least for NaN. 0 and -0 have one.
+InputLabel ordered_label(double value);
 
 /// A sample that is no label.
 struct NoLabel {

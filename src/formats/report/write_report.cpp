@@ -168,6 +168,14 @@ void put_samples(Json& json, const SampleAgreement& samples, const LabelTable& l
     }
 }
 
+/// Samples that several masks claim.
+void put_overlaps(Json& json, const Overlaps& overlaps) {
+    if (overlaps.samples.empty()) return;
+    Json& all = json["overlaps"] = Json::array();
+    for (const auto& [pair, samples] : overlaps.samples)
+        all.push_back({{"labels", {pair.first, pair.second}}, {"samples", samples}});
+}
+
 Json denoise_json(const DenoiseReport& done, const LabelTable& labels) {
     Json json{{"specks", done.specks},
               {"speck_samples", done.speck_samples},
@@ -217,6 +225,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
     json["sections_between"] = report.sections_between;
     json["sections_moved"] = report.sections_moved;
     json["largest_section_shift"] = report.largest_section_shift;
+    put_overlaps(json, report.overlaps);
     json["samples_in_room"] = report.samples_in_room;
     json["denoise"] = denoise_json(report.denoise, labels);
     json["stopped"] = to_string(report.stopped);

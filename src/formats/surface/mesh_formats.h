@@ -57,6 +57,7 @@ FileSurface read_vtu(const std::filesystem::path& path);
 FileSurface read_ply(const std::filesystem::path& path);
 FileSurface read_stl(const std::filesystem::path& path);
 FileSurface read_obj(const std::filesystem::path& path);
+FileSurface read_off(const std::filesystem::path& path);
 FileSurface read_dream3d(const std::filesystem::path& path);
 
 }  // namespace regionmesh

@@ -56,6 +56,20 @@ std::optional<double> metres_in(std::string_view unit) {
     return femtometres ? std::optional(*femtometres / kFemtometresInMetre) : std::nullopt;
 }
 
+std::optional<double> metres_in_quoted(std::string_view units) {
+    std::optional<std::string_view> unit;
+    for (std::size_t at = units.find('"'); at != std::string_view::npos; at = units.find('"', at + 1)) {
+        const std::size_t end = units.find('"', at + 1);
+        if (end == std::string_view::npos) return {};
+        const std::string_view word = units.substr(at + 1, end - at - 1);
+        at = end;
+        if (word.empty()) continue;
+        if (unit && *unit != word) return {};
+        unit = word;
+    }
+    return unit ? metres_in(*unit) : std::nullopt;
+}
+
 }  // namespace regionmesh::formats
 
 namespace regionmesh {

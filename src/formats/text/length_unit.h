@@ -13,4 +13,7 @@ std::optional<double> femtometres_in(std::string_view unit);
 /// The metres of a unit. None for another word.
 std::optional<double> metres_in(std::string_view unit);
 
+/// Of the one unit that a list of units in quotes names, as `"mm" "mm" ""`; none where there are several or none.
+std::optional<double> metres_in_quoted(std::string_view units);
+
 }  // namespace regionmesh::formats

@@ -28,11 +28,15 @@ struct VtiHeader {
     SampleFormat format;
 };
 
-/// The active scalars, or else the only array of integers, or of reals.
-pugi::xml_node choose_array(const VtkXml& xml, pugi::xml_node piece) {
+/// The array called `wanted`; where that is empty, the active scalars, or else the only array of integers, or of reals.
+pugi::xml_node choose_array(const VtkXml& xml, pugi::xml_node piece, const std::string& wanted) {
     const std::vector<pugi::xml_node> all = arrays_of(piece, false);
     std::vector<MeshArray> arrays;
     for (const pugi::xml_node node : all) arrays.push_back(describe(node));
+    for (std::size_t i = 0; i < all.size() && !wanted.empty(); ++i)
+        if (arrays[i].name == wanted && arrays[i].components == 1) return all[i];
+    if (!wanted.empty())
+        xml.fail(fmt::format("has no array '{}' of single numbers; its arrays: {}", shown(wanted), list_of(arrays)));
     std::size_t integers = 0;
     for (const bool is_integer : {true, false}) {
         for (const bool is_active_only : {true, false}) {
@@ -52,8 +56,7 @@ pugi::xml_node choose_array(const VtkXml& xml, pugi::xml_node piece) {
     xml.fail(fmt::format("has {}; its arrays: {}",
                          integers == 0 ? "no array of single numbers that could be labels, or several of reals; "
                                          "write a file with the labels only"
-                                       : "several arrays of integers; write a file with the labels only, or make "
-                                         "them the only active scalars",
+                                       : "several arrays of integers; choose one with --array NAME",
                          list_of(arrays)));
 }
 
@@ -95,11 +98,11 @@ void place_in_space(const VtkXml& xml, pugi::xml_node piece, bool is_cell, const
 
 /// Throws Error(kInput) naming the file: more than one piece, no array that could be labels, or several of which none
 /// is the active scalars.
-VtiHeader read_vti_header(const VtkXml& xml, const ReadOptions& options) {
+VtiHeader read_vti_header(const VtkXml& xml, const std::string& array, const ReadOptions& options) {
     const pugi::xml_node piece = xml.dataset().child("Piece");
     if (!piece || piece.next_sibling("Piece")) xml.fail("has no Piece, or several; write it as one piece");
     VtiHeader header;
-    header.array = choose_array(xml, piece);
+    header.array = choose_array(xml, piece, array);
     const NumberType type = *vtk_type(header.array);
     if (is_real(type))
         header.format = real_format(type, xml.encoding().is_big_endian);
@@ -111,10 +114,11 @@ VtiHeader read_vti_header(const VtkXml& xml, const ReadOptions& options) {
 
 }  // namespace
 
-std::unique_ptr<SectionReader> open_vti(const std::filesystem::path& path, const ReadOptions& options) {
+std::unique_ptr<SectionReader> open_vti(const std::filesystem::path& named, const ReadOptions& options) {
     using Form = VtkArrayPlace::Form;
+    const auto [path, dataset] = split_dataset(named);
     const VtkXml xml(path, "ImageData");
-    const VtiHeader header = read_vti_header(xml, options);
+    const VtiHeader header = read_vti_header(xml, dataset.empty() ? "" : dataset.substr(1), options);
     const SampleFormat& format = header.format;
     const std::uint64_t sample = sample_bytes(format);
     VolumeInfo info = volume_info(path, "vti", format.type, header.lattice.size);

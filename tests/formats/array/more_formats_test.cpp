@@ -97,5 +97,37 @@ TEST_F(MoreFormats, pages_of_tiff_are_turned_as_their_orientation_says) {
     EXPECT_THAT(page(8), ElementsAre(2, 5, 1, 4, 0, 3));
 }
 
+TEST_F(MoreFormats, tesr_of_neper_is_read_as_text_and_binary_with_samples_in_the_middle_of_voxels) {
+    for (const char* name : {"ascii.tesr", "short.tesr"}) {
+        const Volume volume = read_volume({more(name)});
+        EXPECT_EQ(volume.labels, expected(SampleType::kU16)) << name;
+        EXPECT_EQ(volume.info.lattice.spacing, (Vec3{0.5, 0.25, 2}));
+        EXPECT_EQ(volume.info.lattice.origin, (Vec3{1.25, 2.125, 4}));
+        EXPECT_EQ(read_volume({more(name)}, spaced({1, 1, 1})).info.lattice.origin, (Vec3{1.5, 2.5, 3.5}));
+        expect_refusal_of_each_part(name);
+    }
+}
+
+TEST_F(MoreFormats, files_are_known_by_their_content_where_their_names_say_nothing) {
+    const std::pair<const char*, const char*> files[]{{"more/text.am", "amira"},
+                                                      {"more/ascii.tesr", "tesr"},
+                                                      {"more/text.vtk", "vtk"},
+                                                      {"nifti/version2_uint64.nii", "nifti"},
+                                                      {"nifti/sform_uint8.nii.gz", "nifti"},
+                                                      {"inr/uint8.inr", "inr"}};
+    for (const auto& [name, format] : files) {
+        SCOPED_TRACE(name);
+        const Volume wanted = read_volume({data(name)});
+        for (const char* other : {"labels", "labels.ims", "labels.bak"}) {
+            put_text(path(other), text_of(data(name)));
+            const Volume volume = read_volume({path(other)});
+            EXPECT_EQ(volume.labels, wanted.labels) << other;
+            EXPECT_EQ(volume.info.format, format) << other;
+        }
+    }
+    put_text(path("notes"), "some text");
+    EXPECT_THAT(refusal({path("notes")}), HasSubstr("unknown format"));
+}
+
 }  // namespace
 }  // namespace regionmesh

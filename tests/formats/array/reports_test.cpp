@@ -121,5 +121,90 @@ TEST_F(Reports, pair_of_files_is_read_by_either_name_and_so_is_analyze) {
     EXPECT_THAT(refusal({path("a.hdr")}), HasSubstr("is half of a pair"));
 }
 
+TEST_F(Reports, folder_of_masks_and_a_list_of_them_are_one_volume_named_by_files) {
+    const std::filesystem::path liver = report("masks/liver.nii.gz"), spleen = report("masks/spleen.nii.gz");
+    const Volume folder = read_volume({report("masks")});
+    EXPECT_EQ(folder.labels, boxes());
+    EXPECT_EQ(folder.info.names, (LabelNames{{1, "liver"}, {2, "spleen"}}));
+    EXPECT_EQ(folder.info.type, SampleType::kU8);
+    EXPECT_TRUE(folder.info.overlaps->samples.empty());
+    const Volume list = read_volume({spleen, liver});
+    EXPECT_EQ(list.info.names, (LabelNames{{1, "spleen"}, {2, "liver"}}));
+    std::vector<InputLabel> turned = boxes();
+    for (InputLabel& label : turned) label = label == 0 ? 0 : 3 - label;
+    EXPECT_EQ(list.labels, turned);
+}
+
+TEST_F(Reports, one_of_several_arrays_is_chosen_by_its_name) {
+    const std::string file = report("two_arrays.vti").string();
+    EXPECT_THAT(refusal({file}), HasSubstr("several arrays of integers; choose one with --array NAME"));
+    EXPECT_EQ(read_volume({file + ":/phase"}).labels, std::vector<InputLabel>(512, 1));
+    EXPECT_EQ(read_volume({file + ":/material"}).labels, read_volume({report("damask.vti")}).labels);
+    EXPECT_THAT(refusal({file + ":/none"}), HasSubstr("has no array 'none' of single numbers; its arrays: material"));
+    Settings settings;
+    settings.tetrahedra.array = "phase";
+    EXPECT_EQ(pull(*open_lattice(settings, {file})), std::vector<InputLabel>(512, 1));
+    EXPECT_THROW(open_lattice(settings, {report("labels.npy").string()}), Error);
+}
+
+/// Two masks of 3 samples in a row that share the one in the middle.
+class Overlapping : public TemporaryFolder {
+protected:
+    void SetUp() override {
+        put_mask("a.nrrd", {1, 1, 0});
+        put_mask("b.nrrd", {0, 7, 7});
+    }
+    void put_mask(const std::string& name, std::vector<char> samples) {
+        std::string text = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 1 1\nencoding: raw\n\n";
+        text.append(samples.begin(), samples.end());
+        put_text(path(name), text);
+    }
+};
+
+TEST_F(Overlapping, the_last_wins_unless_priority_says_otherwise_and_pairs_are_counted) {
+    const std::vector<std::filesystem::path> files{path("a.nrrd"), path("b.nrrd")};
+    const Volume volume = read_volume(files);
+    EXPECT_EQ(volume.labels, (std::vector<InputLabel>{1, 2, 2}));
+    EXPECT_EQ(volume.info.overlaps->samples, (decltype(Overlaps::samples){{{1, 2}, 1}}));
+    for (const char* word : {"A", "1"}) {
+        ReadOptions options;
+        options.priority = {word};
+        EXPECT_EQ(read_volume(files, options).labels, (std::vector<InputLabel>{1, 1, 2}));
+    }
+    ReadOptions options;
+    options.priority = {"c"};
+    EXPECT_THAT(refusal(files, options), HasSubstr("--priority c: no region is called so"));
+    EXPECT_THAT(refusal({path("a.nrrd")}, options), HasSubstr("each of its samples has one label"));
+}
+
+TEST_F(Overlapping, masks_of_several_labels_or_another_lattice_are_refused) {
+    put_mask("b.nrrd", {0, 7, 8});
+    EXPECT_THAT(refusal({path("a.nrrd"), path("b.nrrd")}),
+                HasSubstr("b.nrrd: section 2: has the labels 7 and 8, where a mask of one region has one"));
+    put_text(path("b.nrrd"), "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 1 1\nencoding: raw\n\nab");
+    EXPECT_THAT(refusal({path("a.nrrd"), path("b.nrrd")}), HasSubstr("2 x 1 x 1 samples, and"));
+    put_text(path("b.nrrd"),
+             "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 1 1\nspacings: 1 1 2\nencoding: raw\n\nabc");
+    EXPECT_THAT(refusal({path("a.nrrd"), path("b.nrrd")}), HasSubstr("lies elsewhere in space"));
+}
+
+TEST_F(Reports, segments_in_layers_are_all_read_with_their_names) {
+    const Volume volume = read_volume({report("layers.seg.nrrd")});
+    EXPECT_EQ(volume.labels, boxes());
+    EXPECT_EQ(volume.info.names, (LabelNames{{1, "tumour"}, {2, "edema"}}));
+    ReadOptions second;
+    second.layer = 1;
+    EXPECT_EQ(read_volume({report("layers.seg.nrrd")}, second).info.names, (LabelNames{{1, "edema"}}));
+}
+
+TEST_F(Reports, cropped_masks_are_those_samples) {
+    ReadOptions part;
+    part.select.roi[0] = {.first = 4, .end = 6};
+    for (const char* name : {"masks", "layers.seg.nrrd"}) {
+        const Volume volume = read_volume({report(name)}, part);
+        EXPECT_EQ(volume.labels, read_volume({report("labels.npy")}, part).labels);
+    }
+}
+
 }  // namespace
 }  // namespace regionmesh

@@ -165,5 +165,14 @@ TEST_F(ReadHdf5Test, damaged_files_end_in_an_error_or_in_labels) {
     }
 }
 
+class MatFiles : public TemporaryFolder {};
+
+TEST_F(MatFiles, of_matlab_7_3_are_hdf5_behind_a_block_of_512_bytes) {
+    const std::string block = "MATLAB 7.3 MAT-file" + std::string(512 - 19, ' ');
+    put_text(path("a.mat"), block + text_of(data("chunked/one.h5")));
+    EXPECT_EQ(read_volume({path("a.mat")}).labels, read_volume({data("chunked/one.h5")}).labels);
+    EXPECT_THAT(refusal({path("a.mat").string() + ":/nothing"}), testing::HasSubstr("nothing"));
+}
+
 }  // namespace
 }  // namespace regionmesh
