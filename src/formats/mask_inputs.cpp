@@ -44,8 +44,8 @@ ReadOptions along(const SectionReader& first, ReadOptions options) {
 
 bool is_volume_file(const fs::path& file) {
     const Format* format = find_format(file);
-    return format && format->open_sections && !format->is_image && !format->is_folder && !format->open_tetrahedra &&
-           format->open_sections != open_raw;
+    return format && format->open_sections && !format->detect_file && !format->is_image && !format->is_folder &&
+           !format->open_tetrahedra && format->open_sections != open_raw;
 }
 
 std::vector<fs::path> volumes_in(const fs::path& folder) {

@@ -91,6 +91,9 @@ std::vector<std::filesystem::path> named_arrays(const Settings& settings, const 
     if (inputs.size() > 1 || inputs.front() == "-")
         throw Error(ErrorCode::kUsage, "--array " + array + ": chooses one of the arrays of one file; name one file");
     const formats::DatasetPath path = formats::split_dataset(inputs.front());
+    std::error_code ignored;
+    if (path.dataset.empty() && !std::filesystem::exists(path.file, ignored))
+        return {path.file};  // refused by its name
     const std::string named = path.file.string() + ":/" + array;
     if (!path.dataset.empty() || formats::split_dataset(named).dataset.empty())
         throw Error(ErrorCode::kUsage,

@@ -24,6 +24,7 @@ std::string text_value(const std::string& name) {
     if (name == "box") return "0:4.5,:,2:";
     if (name == "labels") return "1,5-9";
     if (name == "downsample") return "2,2,1";
+    if (name == "threshold") return "1,2.5";
     return "X,Y,Z,LABEL";
 }
 
@@ -58,6 +59,7 @@ std::string good_value(const OptionSpec& option) {
 
 /// An input that the option applies to; none of them exists.
 std::string input_for(const OptionSpec& option) {
+    if (option.name == "array") return "none.vti";
     return option.inputs & kVolumeInput ? "none.npy" : option.inputs & kTableInput ? "none.csv" : "none.vtu";
 }
 

@@ -85,8 +85,10 @@ private:
         if (found == layer.regions.end())
             fail_section(
                 source, number,
-                fmt::format("has the label {}, of which the file names no segment; choose one layer with --layer N",
-                            stored));
+                fmt::format(
+                    "has the label {}, of which the file names no segment; for one layer alone, give --layer 0 to "
+                    "--layer {}",
+                    stored, layers_.size() - 1));
         return found->second;
     }
 
