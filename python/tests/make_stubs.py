@@ -70,7 +70,7 @@ def _type_of(name, parameter, options):
     row = options.get(name)
     if parameter.default == "file":
         return '_Int | Iterable[_Int] | Literal["file"] | None'
-    if row is None or name in ("spacing", "background", "smooth", "downsample", "scale_z"):
+    if row is None or name in ("spacing", "background", "smooth", "downsample", "scale_z", "edge_length"):
         return _OF_NAME[name]
     if row["words"]:
         return "Literal[" + ", ".join(f'"{word}"' for word in row["words"]) + "] | None"

@@ -140,7 +140,7 @@ def test_memory_that_cannot_be_kept_is_refused(grains):
 def test_the_signature_lists_every_option_of_the_program():
     parameters = inspect.signature(regionmesh.reconstruct).parameters
     for row in _core.option_rows("reconstruct"):
-        name = row["name"].removeprefix("no-").replace("-", "_")
+        name = "purpose" if row["name"] == "for" else row["name"].removeprefix("no-").replace("-", "_")
         is_here = not row["is_argument"] and row["group"] != "Output" and row["kind"] != "file"
         of_process = ("quiet", "verbose", "memory_limit", "sandbox", "require_sandbox")
         is_here = is_here and name not in of_process
